@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+# One static library per folder of src/asperity, one test binary beside it.
+
+add_library(asperity_flags INTERFACE)
+target_compile_features(asperity_flags INTERFACE cxx_std_20)
+target_compile_options(asperity_flags INTERFACE
+    # Results must not depend on whether the compiler fuses a multiplication with an addition.
+    -ffp-contract=off
+    -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Wnon-virtual-dtor -Wold-style-cast)
+target_compile_definitions(asperity_flags INTERFACE _GLIBCXX_ASSERTIONS)
+if(ASPERITY_WARNINGS_AS_ERRORS)
+    target_compile_options(asperity_flags INTERFACE -Werror)
+endif()
+if(ASPERITY_SANITIZE)
+    target_compile_options(asperity_flags INTERFACE
+        -fsanitize=${ASPERITY_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(asperity_flags INTERFACE -fsanitize=${ASPERITY_SANITIZE})
+endif()
+
+# asperity_module(NAME SOURCES ... [TESTS ...] [LIBS ...] [PRIVATE_LIBS ...])
+# Makes the target asperity_NAME and, from TESTS, the test binary asperity_NAME_test.
+function(asperity_module name)
+    cmake_parse_arguments(M "" "" "SOURCES;TESTS;LIBS;PRIVATE_LIBS" ${ARGN})
+    add_library(asperity_${name} STATIC ${M_SOURCES})
+    target_include_directories(asperity_${name} PUBLIC
+        $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include>)
+    target_link_libraries(asperity_${name} PUBLIC ${M_LIBS}
+        PRIVATE $<BUILD_INTERFACE:asperity_flags> ${M_PRIVATE_LIBS})
+    target_compile_features(asperity_${name} PUBLIC cxx_std_20)
+    if(ASPERITY_BUILD_TESTS AND M_TESTS)
+        asperity_test(asperity_${name}_test LABEL unit SOURCES ${M_TESTS} LIBS asperity_${name})
+    endif()
+endfunction()
+
+# asperity_test(NAME LABEL label SOURCES ... LIBS ...): a GoogleTest binary and its ctest entry.
+function(asperity_test name)
+    cmake_parse_arguments(T "" "LABEL" "SOURCES;LIBS" ${ARGN})
+    add_executable(${name} ${T_SOURCES})
+    target_link_libraries(${name} PRIVATE ${T_LIBS} asperity_flags GTest::gtest_main)
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES LABELS ${T_LABEL})
+endfunction()

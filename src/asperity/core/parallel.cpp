@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/core/parallel.h>
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace asperity {
+
+void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
+    if (threads <= 1 || count <= 1) {
+        for (std::size_t k = 0; k < count; ++k) body(k);
+        return;
+    }
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+        tbb::parallel_for(std::size_t{0}, count, body, tbb::simple_partitioner());
+    });
+}
+
+}  // namespace asperity

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/gonio/detector.h>
+#include <asperity/gonio/experiment.h>
+#include <asperity/surface/statistics.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace asperity {
+
+/// Light that left the surface for one incident direction, sorted by outgoing direction.
+///
+/// Energies are integers in units of 2^-32 of a launched ray (core/energy.h). Index order of
+/// `energy`: [(order * channels + channel) * cells + cell], order 0 = left after one reflection;
+/// the last order holds all higher ones too. Per channel
+///     rays * 2^32 = escaped + absorbed + truncated + edge,   escaped = sum of `energy`.
+struct Layer {
+    int number = 0;         ///< thesis layer, 1 .. N; counts up from 1 for fixed angles
+    double theta_i = 0;     ///< incident polar angle [rad], 0 = along the normal
+    double phi_i = 0;       ///< azimuth the light comes from [rad]; 0 when isotropic
+    std::uint64_t rays = 0;      ///< launched
+    std::uint64_t segments = 0;  ///< ray segments traced
+    std::uint64_t reflections = 0;  ///< of all rays together, the truncated ones' B each included
+    std::uint64_t stuck = 0;        ///< rays whose energy counts as truncated: RayEnd::Stuck
+    int batches = 0;
+
+    std::vector<std::uint64_t> energy;     ///< orders x channels x cells
+    std::vector<std::uint64_t> escaped;    ///< per channel
+    std::vector<std::uint64_t> absorbed;   ///< per channel
+    std::vector<std::uint64_t> truncated;  ///< per channel: would need reflection B + 1, and stuck
+    std::vector<std::uint64_t> edge;       ///< per channel: left through the side of a patch
+    std::vector<std::uint64_t> escaped_by_bounce;  ///< [channel * B + order], B = Ray Bounces
+
+    std::vector<float> stderr_energy;   ///< [channel * cells + cell], fraction of launched energy
+    std::vector<double> stderr_albedo;  ///< per channel
+    std::vector<double> stderr_albedo_by_bounce;  ///< like escaped_by_bounce
+};
+
+/// The result of a run: an experiment and what came out of it.
+struct Measurement {
+    Experiment experiment;
+    Detector detector;
+    std::vector<std::string> channel_names;  ///< as Fresnel::channel_names
+    SurfaceStatistics surface;               ///< of the surface as traced
+    std::string surface_name;
+    int surface_nx = 0, surface_ny = 0;
+    double surface_dx = 1, surface_dy = 1;
+    bool surface_isotropic = false;
+    std::vector<Layer> layers;  ///< in the order they were filled: from normal incidence down
+    bool stopped = false;       ///< the user stopped the run: the layers hold the batches done
+    std::vector<std::string> notes;  ///< what a reader should know, one sentence each
+
+    // How it was run; no part of the checksum.
+    double trace_seconds = 0;  ///< wall-clock time of tracing
+    int threads = 0;
+    std::string version;
+
+    int channels() const { return static_cast<int>(channel_names.size()); }
+    int orders() const;  ///< bounce orders kept apart per cell
+    int bounces() const { return experiment.run.bounces; }
+
+    /// Energy of one cell over all orders, as a fraction of the launched energy.
+    double energy(const Layer& layer, int channel, int cell) const;
+    double energy(const Layer& layer, int order, int channel, int cell) const;
+    /// BRDF of a cell [1/sr]: the cosine-weighted mean of f_r over the cell,
+    /// energy / projected solid angle. No cosine included.
+    double brdf(const Layer& layer, int channel, int cell) const;
+    double brdf_stderr(const Layer& layer, int channel, int cell) const;
+    double albedo(const Layer& layer, int channel) const;
+    double albedo(const Layer& layer, int order, int channel) const;  ///< order 0 .. B - 1
+};
+
+}  // namespace asperity
