@@ -17,6 +17,12 @@ if(ASPERITY_SANITIZE)
     target_link_options(asperity_flags INTERFACE -fsanitize=${ASPERITY_SANITIZE})
 endif()
 
+# Tests of a sanitized build carry the word in their names, to be told from the others.
+set(ASPERITY_TEST_SUFFIX "")
+if(ASPERITY_SANITIZE)
+    set(ASPERITY_TEST_SUFFIX _sanitized)
+endif()
+
 # asperity_module(NAME SOURCES ... [TESTS ...] [LIBS ...] [PRIVATE_LIBS ...])
 # Makes the target asperity_NAME and, from TESTS, the test binary asperity_NAME_test.
 function(asperity_module name)
@@ -27,16 +33,22 @@ function(asperity_module name)
     target_link_libraries(asperity_${name} PUBLIC ${M_LIBS}
         PRIVATE $<BUILD_INTERFACE:asperity_flags> ${M_PRIVATE_LIBS})
     target_compile_features(asperity_${name} PUBLIC cxx_std_20)
+    install(TARGETS asperity_${name} EXPORT asperity_targets)
     if(ASPERITY_BUILD_TESTS AND M_TESTS)
         asperity_test(asperity_${name}_test LABEL unit SOURCES ${M_TESTS} LIBS asperity_${name})
     endif()
 endfunction()
 
 # asperity_test(NAME LABEL label SOURCES ... LIBS ...): a GoogleTest binary and its ctest entry.
+# All tests of a label are built by the target <label>_tests.
 function(asperity_test name)
     cmake_parse_arguments(T "" "LABEL" "SOURCES;LIBS" ${ARGN})
     add_executable(${name} ${T_SOURCES})
     target_link_libraries(${name} PRIVATE ${T_LIBS} asperity_flags GTest::gtest_main)
-    add_test(NAME ${name} COMMAND ${name})
-    set_tests_properties(${name} PROPERTIES LABELS ${T_LABEL})
+    add_test(NAME ${name}${ASPERITY_TEST_SUFFIX} COMMAND ${name})
+    set_tests_properties(${name}${ASPERITY_TEST_SUFFIX} PROPERTIES LABELS ${T_LABEL})
+    if(NOT TARGET ${T_LABEL}_tests)
+        add_custom_target(${T_LABEL}_tests)
+    endif()
+    add_dependencies(${T_LABEL}_tests ${name})
 endfunction()

@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Reads the #include lines of a source tree and fails on one that runs against the data.
+
+    core <- optics, surface <- tracing <- gonio <- brdf <- render <- apps
+
+A folder of src/asperity includes only itself and what MAY_SEE names. io sees the data types of the
+others, and none of them sees io. render does not see gonio: where a BRDF came from must not matter.
+Programs see all of the library but no library of numerics: physics has no place in them.
+
+usage: check_layers.py ROOT        prints one line for each wrong include; exits 1 if there is one
+"""
+
+import re
+import sys
+from pathlib import Path
+
+MAY_SEE = {
+    "core": set(),
+    "optics": {"core"},
+    "surface": {"core"},
+    "tracing": {"core", "optics", "surface"},
+    "gonio": {"core", "optics", "surface", "tracing"},
+    "brdf": {"core", "optics", "surface", "tracing", "gonio"},
+    "render": {"core", "optics", "surface", "tracing", "brdf"},
+    "io": {"core", "optics", "surface", "tracing", "gonio", "brdf"},
+}
+
+# First folder, or the whole name, of the headers that apps must leave to the library.
+NUMERICS = {"Eigen", "unsupported", "Random123", "embree3", "tbb", "oneapi", "hwy"}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+
+def includes(path):
+    """Yields (line number, delimiter, name) for each #include line of a file."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    for number, line in enumerate(lines, start=1):
+        match = INCLUDE.match(line)
+        if match:
+            yield number, match.group(1), match.group(2)
+
+
+def sources(folder):
+    return sorted(p for p in folder.rglob("*") if p.suffix in (".h", ".cpp"))
+
+
+def wrong_in_library(module, delimiter, name):
+    """Why a file of src/asperity/<module> must not include `name`; None if it may."""
+    if delimiter == '"':
+        return "is relative: write <asperity/folder/file.h>"
+    parts = name.split("/")
+    if parts[0] != "asperity":
+        return None
+    target = parts[1]
+    if target == module or target in MAY_SEE[module]:
+        return None
+    if target not in MAY_SEE:
+        return f"lies in an unknown folder '{target}'"
+    return f"runs the wrong way: {module} does not see {target}"
+
+
+def wrong_in_apps(delimiter, name):
+    """Why a file of apps/ must not include `name`; None if it may."""
+    if name.split("/")[0] in NUMERICS:
+        return "is numerics: that belongs in the library"
+    return None
+
+
+def check(root):
+    """Returns one line of complaint for each wrong include, and the number of files read."""
+    complaints, read = [], 0
+    library = root / "src" / "asperity"
+    for module in sorted(p.name for p in library.iterdir() if p.is_dir()):
+        if module not in MAY_SEE:
+            complaints.append(f"{library / module}: not in the list of folders, see {__file__}")
+            continue
+        for path in sources(library / module):
+            read += 1
+            for number, delimiter, name in includes(path):
+                reason = wrong_in_library(module, delimiter, name)
+                if reason:
+                    complaints.append(f"{path}:{number}: {name} {reason}")
+    for path in sources(root / "apps"):
+        read += 1
+        for number, delimiter, name in includes(path):
+            reason = wrong_in_apps(delimiter, name)
+            if reason:
+                complaints.append(f"{path}:{number}: {name} {reason}")
+    return complaints, read
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    complaints, read = check(Path(sys.argv[1]))
+    for complaint in complaints:
+        print(complaint, file=sys.stderr)
+    if read == 0:
+        sys.exit(f"{sys.argv[1]}: no sources below src/asperity and apps")
+    sys.exit(1 if complaints else 0)
+
+
+if __name__ == "__main__":
+    main()
