@@ -5,7 +5,6 @@ set -euo pipefail
 
 caller_directory=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-root=$PWD
 
 # Threads for compilers and tests: as many as this process may use.
 jobs=$(nproc)
