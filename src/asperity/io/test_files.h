@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Helpers shared by the tests of this folder.
+#pragma once
+
+#include <asperity/core/error.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+
+namespace asperity::io::test {
+
+/// A folder that lives as long as the object.
+class TemporaryFolder {
+  public:
+    TemporaryFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "asperity-io-XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+        folder_ = name;
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    std::string operator/(const std::string& name) const { return (folder_ / name).string(); }
+    std::string path() const { return folder_.string(); }
+    /// How many files it holds, hidden ones included.
+    long files() const {
+        return std::distance(std::filesystem::directory_iterator(folder_),
+                             std::filesystem::directory_iterator());
+    }
+
+  private:
+    std::filesystem::path folder_;
+};
+
+inline void put(const std::string& path, const std::string& bytes) {
+    std::ofstream out(path, std::ios::binary | std::ios::trunc);
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+inline std::string get(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// The Error that `call` throws; nothing when it throws none. Other exceptions pass through.
+template <typename Call>
+std::optional<Error> error_of(Call&& call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        return error;
+    }
+    return std::nullopt;
+}
+
+/// Expects that `call` throws Error(code) whose text contains `part`.
+template <typename Call>
+void expect_error(ErrorCode code, const std::string& part, Call&& call) {
+    const auto error = error_of(call);
+    ASSERT_TRUE(error) << "no error; expected: " << part;
+    EXPECT_EQ(error->code(), code) << error->what();
+    EXPECT_NE(std::string(error->what()).find(part), std::string::npos)
+        << "'" << error->what() << "' lacks '" << part << "'";
+    EXPECT_EQ(std::string(error->what()).find('\n'), std::string::npos) << error->what();
+}
+
+}  // namespace asperity::io::test
