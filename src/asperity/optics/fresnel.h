@@ -49,6 +49,8 @@ class Fresnel {
     void eval(double cos_theta, std::span<double> f) const;
 
   private:
+    void set_conductor(const OpticsSettings& settings);
+
     struct Channel {
         double f0 = 1, n = 1, k = 0;
     };
