@@ -9,6 +9,9 @@
 
 namespace asperity {
 
+/// Largest number of channels of a Brdf.
+inline constexpr int kMaxBrdfChannels = 64;
+
 /// A direction drawn by Brdf::sample and the density it was drawn with [1/sr].
 struct BrdfSample {
     Vec3 wo;
@@ -19,7 +22,7 @@ struct BrdfSample {
 ///
 /// wi and wo are unit vectors pointing away from the surface; wi is where the light comes from, z
 /// the normal. Directions at or below the horizon (z <= 0) give f = 0 and pdf = 0. Channels are
-/// those of channel_names(). All functions are const, thread-safe and free of allocation.
+/// as in OpticsSettings. All functions are const, thread-safe and free of allocation.
 class Brdf {
   public:
     virtual ~Brdf() = default;
@@ -39,8 +42,12 @@ class Brdf {
     virtual double pdf(Vec3 wi, Vec3 wo) const = 0;
 
     /// Directional albedo: the integral of f cos(theta_o) over wo, per channel. The default
-    /// integrates numerically (relative error below 1e-3 for alpha >= 0.05).
+    /// integrates numerically (relative error below 1e-3 for alpha >= 0.05): E[f cos(theta_o) / pdf]
+    /// over 10946 points.
     virtual void albedo(Vec3 wi, std::span<double> a) const;
+
+    /// True when turning wi and wo together about z never changes f.
+    virtual bool isotropic() const { return false; }
 };
 
 }  // namespace asperity

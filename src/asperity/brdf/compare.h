@@ -26,8 +26,8 @@ struct LayerComparison {
     double theta_i = 0, phi_i = 0;
     double albedo_a = 0, albedo_b = 0;
     double albedo_difference = 0;  ///< a - b
-    double l1 = 0;     ///< integral of |fa - fb| cos theta_o dwo over cell means, 0 .. 2
-    double rms = 0;    ///< root mean square of (fa - fb) cos theta_o over the hemisphere [1/sr]
+    double l1 = 0;        ///< integral of |fa - fb| cos theta_o dwo over cell means, 0 .. 2
+    double rms = 0;       ///< root mean square of (fa - fb) cos theta_o over the hemisphere [1/sr]
     double l1_noise = 0;  ///< what l1 would be from the error bars alone: sum sqrt(2/pi) stderr
 };
 

@@ -7,9 +7,9 @@
 namespace asperity {
 
 /// Energy is counted in units of 2^-32 of one launched ray, in 64-bit integers: sums are exact and
-/// do not depend on their order. 2^32 - 1 rays of full energy fit into one sum.
+/// do not depend on their order. Just under 2^32 rays of full energy fit into one sum.
 inline constexpr std::uint64_t kRayEnergy = std::uint64_t{1} << 32;
-inline constexpr std::uint64_t kMaxRaysPerLayer = kRayEnergy - 1;
+inline constexpr std::uint64_t kMaxRaysPerLayer = kRayEnergy - (std::uint64_t{1} << 20);
 
 /// The energy of a ray of weight `weight` in [0, 1].
 inline std::uint64_t to_energy(double weight) {

@@ -15,9 +15,8 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
-    arena.execute([&] {
-        tbb::parallel_for(std::size_t{0}, count, body, tbb::simple_partitioner());
-    });
+    arena.execute(
+        [&] { tbb::parallel_for(std::size_t{0}, count, body, tbb::simple_partitioner()); });
 }
 
 }  // namespace asperity

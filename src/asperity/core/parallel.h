@@ -6,7 +6,8 @@
 
 namespace asperity {
 
-/// Calls body(k) for every k in [0, count) on up to `threads` threads and returns when all are done.
+/// Calls body(k) for every k in [0, count) on up to `threads` threads and returns when all are
+/// done.
 ///
 /// The order of the calls is not defined, so a body may only write what belongs to its k. The first
 /// exception thrown by a body is thrown again here; the remaining calls may be left out.

@@ -26,8 +26,8 @@ class CounterRandom {
         const Philox::ctr_type counter = {{static_cast<std::uint32_t>(index),
                                            static_cast<std::uint32_t>(index >> 32), stream_,
                                            dimension}};
-        const Philox::key_type key = {{static_cast<std::uint32_t>(seed_),
-                                       static_cast<std::uint32_t>(seed_ >> 32)}};
+        const Philox::key_type key = {
+            {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)}};
         const Philox::ctr_type r = Philox()(counter, key);
         return {r[0], r[1], r[2], r[3]};
     }

@@ -12,12 +12,12 @@ namespace asperity {
 
 /// How far a Run has come.
 struct Progress {
-    std::string stage;           ///< what is being done, e.g. "tracing"
-    std::uint64_t done = 0;      ///< never decreases within a stage; equals total at its end
-    std::uint64_t total = 0;     ///< may grow while a run refines until an error is reached
-    double seconds = 0;          ///< since the stage began
-    double per_second = 0;       ///< done / seconds
-    double seconds_left = 0;     ///< at the present rate
+    std::string stage;        ///< what is being done, e.g. "tracing"
+    std::uint64_t done = 0;   ///< never decreases within a stage; equals total at its end
+    std::uint64_t total = 0;  ///< may grow while a run refines until an error is reached
+    double seconds = 0;       ///< since the stage began
+    double per_second = 0;    ///< done / seconds
+    double seconds_left = 0;  ///< at the present rate
 };
 
 /// What a long task shares with its caller: the number of threads, a wish to stop, the progress.

@@ -14,8 +14,9 @@ struct IlluminationSettings {
     /// Thesis layers: layer k of `layers` stands at elevation 90 k / layers degrees; the last one
     /// is normal incidence. Used when theta_deg is empty.
     int layers = 15;
-    std::vector<double> theta_deg;        ///< fixed polar angles, 0 <= . < 90
-    std::vector<double> phi_deg = {0.0};  ///< azimuths the light comes from; every theta x every phi
+    std::vector<double> theta_deg;  ///< fixed polar angles, 0 <= . < 90
+    std::vector<double> phi_deg = {
+        0.0};                ///< azimuths the light comes from; every theta x every phi
     bool isotropic = false;  ///< azimuth random per ray, outgoing azimuth relative to it
 };
 
@@ -28,7 +29,8 @@ enum class DetectorKind {
 struct DetectorSettings {
     DetectorKind kind = DetectorKind::LatLong;
     int resolution = 256;  ///< Texture Resolution R: R columns, R / 2 rows
-    int orders = 4;  ///< bounce orders kept apart per cell; the last one holds all higher orders too
+    int orders =
+        4;  ///< bounce orders kept apart per cell; the last one holds all higher orders too
 };
 
 /// How launch points are spread over the tile.
@@ -39,13 +41,14 @@ enum class LaunchPattern {
 };
 
 struct RunSettings {
-    double jitter = 1;        ///< Camera Jitter J: launch points per surface cell and layer
-    std::uint64_t rays = 0;   ///< per layer; 0: jitter x cells
-    double until = 0;         ///< relative error to reach, 0: none. See measure()
+    double jitter = 1;           ///< Camera Jitter J: launch points per surface cell and layer
+    std::uint64_t rays = 0;      ///< per layer; 0: jitter x cells
+    double until = 0;            ///< relative error of the albedo to reach, 0: none. See measure()
+    double until_cells = 0;      ///< and of the cells; 0: the same as until
     std::uint64_t max_rays = 0;  ///< per layer, for `until`; 0: 256 times the first estimate
-    int bounces = 16;         ///< Ray Bounces B: reflections a ray may make, >= 1
+    int bounces = 16;            ///< Ray Bounces B: reflections a ray may make, >= 1
     LaunchPattern launch = LaunchPattern::LowDiscrepancy;
-    int batches = 32;         ///< independent batches a layer, >= 2, from which errors are estimated
+    int batches = 32;  ///< independent batches a layer, >= 2, from which errors are estimated
     std::uint64_t seed = 1;
 };
 

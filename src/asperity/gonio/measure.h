@@ -13,13 +13,13 @@ namespace asperity {
 /// Same surface and experiment give the same bits for any number of threads. experiment.surface is
 /// only recorded. Layers are filled from normal incidence down (thesis: from 15 to 1).
 ///
-/// With run.until = P > 0 batches are added to a layer until the relative standard error of its
-/// albedo, and that of the cells which carry the strongest 90 % of its energy, are below P (or
-/// run.max_rays is reached, which `notes` says).
+/// With run.until > 0 batches are added to a layer until the relative standard error of its albedo
+/// is below it, and that of every cell among those which, strongest first, carry 90 % of its energy
+/// is below run.until_cells; or until run.max_rays is reached, which `notes` says.
 ///
-/// When run.stop_requested(), returns within 100 ms with `stopped` set and the whole batches done so
-/// far. Throws Error(Usage, "name of the setting"). Errors are estimated from independent batches.
-/// Source: docs/theory.md, "Measurement".
+/// When run.stop_requested(), returns within 100 ms with `stopped` set and the whole batches done
+/// so far. Throws Error(Usage, "name of the setting"). Errors are estimated from independent
+/// batches. Source: docs/theory.md, "Measurement".
 Measurement measure(const Heightfield& surface, const Experiment& experiment, Run& run);
 
 }  // namespace asperity

@@ -18,11 +18,11 @@ namespace asperity {
 /// the last order holds all higher ones too. Per channel
 ///     rays * 2^32 = escaped + absorbed + truncated + edge,   escaped = sum of `energy`.
 struct Layer {
-    int number = 0;         ///< thesis layer, 1 .. N; counts up from 1 for fixed angles
-    double theta_i = 0;     ///< incident polar angle [rad], 0 = along the normal
-    double phi_i = 0;       ///< azimuth the light comes from [rad]; 0 when isotropic
-    std::uint64_t rays = 0;      ///< launched
-    std::uint64_t segments = 0;  ///< ray segments traced
+    int number = 0;                 ///< thesis layer, 1 .. N; counts up from 1 for fixed angles
+    double theta_i = 0;             ///< incident polar angle [rad], 0 = along the normal
+    double phi_i = 0;               ///< azimuth the light comes from [rad]; 0 when isotropic
+    std::uint64_t rays = 0;         ///< launched
+    std::uint64_t segments = 0;     ///< ray segments traced
     std::uint64_t reflections = 0;  ///< of all rays together, the truncated ones' B each included
     std::uint64_t stuck = 0;        ///< rays whose energy counts as truncated: RayEnd::Stuck
     int batches = 0;
@@ -49,8 +49,8 @@ struct Measurement {
     int surface_nx = 0, surface_ny = 0;
     double surface_dx = 1, surface_dy = 1;
     bool surface_isotropic = false;
-    std::vector<Layer> layers;  ///< in the order they were filled: from normal incidence down
-    bool stopped = false;       ///< the user stopped the run: the layers hold the batches done
+    std::vector<Layer> layers;       ///< in the order they were filled: from normal incidence down
+    bool stopped = false;            ///< the user stopped the run: the layers hold the batches done
     std::vector<std::string> notes;  ///< what a reader should know, one sentence each
 
     // How it was run; no part of the checksum.

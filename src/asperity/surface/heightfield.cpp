@@ -21,9 +21,11 @@ void validate(const Heightfield& s, const std::string& where) {
     const auto fail = [&](std::string why) {
         throw Error(ErrorCode::InvalidInput, std::move(why), where);
     };
-    if (s.nx < 2 || s.ny < 2) fail(fmt::format("a surface needs 2 x 2 samples, not {} x {}", s.nx, s.ny));
+    if (s.nx < 2 || s.ny < 2)
+        fail(fmt::format("a surface needs 2 x 2 samples, not {} x {}", s.nx, s.ny));
     if (s.nx > kMaxSurfaceSide || s.ny > kMaxSurfaceSide)
-        fail(fmt::format("{} x {} samples are more than {} on a side", s.nx, s.ny, kMaxSurfaceSide));
+        fail(
+            fmt::format("{} x {} samples are more than {} on a side", s.nx, s.ny, kMaxSurfaceSide));
     if (s.heights.size() != static_cast<std::size_t>(s.nx) * static_cast<std::size_t>(s.ny))
         fail(fmt::format("{} heights for {} x {} samples", s.heights.size(), s.nx, s.ny));
     if (!(s.dx > 0 && s.dy > 0 && std::isfinite(s.dx) && std::isfinite(s.dy)))

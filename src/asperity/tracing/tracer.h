@@ -7,18 +7,17 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace asperity {
 
-/// Where a ray stands: cell (i, j), position inside it in [0, 1], height, and unit direction of
-/// travel. Positions are kept relative to the cell, so they are equally exact everywhere and a
-/// periodic surface needs no wrapping of coordinates.
+/// Where a ray stands: cell (i, j), position inside it in [0, 1], height, and direction of travel.
+/// Positions are kept relative to the cell, so they are equally exact everywhere and a periodic
+/// surface needs no wrapping of coordinates.
 struct Ray {
     std::int32_t i = 0, j = 0;
     double u = 0, v = 0;      ///< x = (i + u) dx, y = (j + v) dy
     double z = 0;             ///< [unit of the surface]
-    Vec3 direction;           ///< of travel
+    Vec3 direction;           ///< of travel, unit length
     std::int32_t facet = -1;  ///< Triangle the ray starts on, -1: free above the surface
 };
 
@@ -27,7 +26,7 @@ enum class RayEnd : std::uint8_t {
     Hit,      ///< stands on a facet now: (i, j, facet)
     Escaped,  ///< left for good through the plane z = max_height
     Edge,     ///< left through the side of a finite patch, below max_height
-    Stuck,    ///< travelled further than any BRDF needs (kMaxSteps); counted, never lost
+    Stuck,    ///< crossed kMaxCrossings lines without an end, e.g. level in a groove; counted
 };
 
 /// Finds where rays meet a heightfield: exact about shared edges and watertight, without epsilon.
@@ -39,7 +38,9 @@ enum class RayEnd : std::uint8_t {
 /// the ray are jumped. See docs/theory.md, "Tracing".
 class Tracer {
   public:
-    /// Builds the bounds; cost one pass over the heights. Keeps a reference to `surface`.
+    static constexpr int kMaxCrossings = 1 << 20;
+
+    /// Builds the height bounds in one pass over the heights. Keeps a reference to `surface`.
     explicit Tracer(const Heightfield& surface, int threads = 1);
 
     const Heightfield& surface() const { return surface_; }
@@ -47,9 +48,9 @@ class Tracer {
     /// Bytes kept beside the heights themselves.
     std::size_t memory_bytes() const { return bounds_.memory_bytes(); }
 
-    /// Advances each ray to its next facet, or out; ends[k] tells which. A ray that starts free
-    /// must stand at or above the surface, one on a facet must leave it upwards. Rays of a batch do
-    /// not depend on each other. ends.size() == rays.size(). Adds crossings to nothing: no state.
+    /// Advances each ray to its next facet, or out; ends[k] tells which. A free ray must stand at
+    /// or above the surface, one on a facet must leave it upwards. ends.size() == rays.size(). The
+    /// rays of a batch do not depend on each other; calls from several threads neither.
     void trace(std::span<Ray> rays, std::span<RayEnd> ends) const;
 
     /// Unit normal of the facet a ray stands on.

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The gonioreflectometer, from light to layers. docs/theory.md, "Measurement", has the equations.
+#include <asperity/gonio/measure.h>
+
+#include <asperity/core/energy.h>
+#include <asperity/core/error.h>
+#include <asperity/core/parallel.h>
+#include <asperity/core/version.h>
+#include <asperity/gonio/follow.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <mutex>
+
+namespace asperity {
+
+namespace {
+
+/// Rays followed between two looks at the wish to stop: some milliseconds.
+constexpr std::uint64_t kChunk = 1024;
+/// A batch larger than this is split: a stopped run loses the batches under way.
+constexpr std::uint64_t kLargestBatch = 1 << 20;
+
+/// How the rays of a layer are divided into independent batches.
+struct BatchPlan {
+    std::uint64_t rays = 0;     ///< of the first round of batches
+    std::uint64_t batches = 0;  ///< in the first round
+    std::uint64_t limit = 0;    ///< rays of a layer at most
+
+    /// Rays of batch b: all alike, the first ones of a round one more if they must.
+    std::uint64_t rays_of(std::uint64_t b) const {
+        return rays / batches + (b % batches < rays % batches ? 1 : 0);
+    }
+    std::uint64_t largest() const { return rays_of(0); }
+};
+
+BatchPlan plan_batches(const Heightfield& surface, const RunSettings& run) {
+    BatchPlan plan;
+    const double wanted = run.rays > 0 ? static_cast<double>(run.rays)
+                                       : run.jitter * static_cast<double>(surface.cell_count());
+    if (wanted > static_cast<double>(kMaxRaysPerLayer))
+        throw Error(ErrorCode::Usage,
+                    fmt::format("{} launch points per cell are {:.3g} rays a layer, more than {}",
+                                run.jitter, wanted, kMaxRaysPerLayer),
+                    "jitter");
+    plan.rays = std::max<std::uint64_t>(2, static_cast<std::uint64_t>(std::llround(wanted)));
+    plan.batches = std::min<std::uint64_t>(static_cast<std::uint64_t>(run.batches), plan.rays);
+    plan.batches = std::max(plan.batches, (plan.rays + kLargestBatch - 1) / kLargestBatch);
+    plan.limit = run.max_rays > 0 ? run.max_rays : std::min(kMaxRaysPerLayer, 256 * plan.rays);
+    return plan;
+}
+
+/// Measures one layer after the other with the same tools.
+class Gonioreflectometer {
+  public:
+    Gonioreflectometer(const Heightfield& surface, const Experiment& experiment, Run& run)
+        : surface_(surface),
+          experiment_(experiment),
+          run_(run),
+          fresnel_(experiment.optics),
+          tracer_(surface, run.threads()),
+          detector_(experiment.detector),
+          plan_(plan_batches(surface, experiment.run)) {}
+
+    Measurement measure() {
+        const auto begin = std::chrono::steady_clock::now();
+        Measurement m = describe();
+        const std::vector<Incidence> light = incidences(experiment_.illumination);
+        rays_ahead_ = plan_.rays * light.size();
+        run_.begin("tracing", rays_ahead_);
+        for (std::size_t k = 0; k < light.size() && !run_.stop_requested(); ++k) {
+            Layer layer;
+            if (fill(layer, light[k], static_cast<std::uint32_t>(k), m.notes))
+                m.layers.push_back(std::move(layer));
+        }
+        run_.end();
+        m.stopped = run_.stop_requested();
+        if (m.stopped) m.notes.push_back("stopped before it was complete");
+        m.trace_seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        return m;
+    }
+
+  private:
+    Measurement describe() const {
+        Measurement m;
+        m.experiment = experiment_;
+        m.detector = detector_;
+        m.channel_names = fresnel_.channel_names();
+        m.surface = statistics(surface_, run_.threads());
+        m.surface_name = surface_.name;
+        m.surface_nx = surface_.nx;
+        m.surface_ny = surface_.ny;
+        m.surface_dx = surface_.dx;
+        m.surface_dy = surface_.dy;
+        m.surface_isotropic = surface_.isotropic;
+        m.threads = run_.threads();
+        m.version = kVersion;
+        if (experiment_.illumination.isotropic && !surface_.isotropic)
+            m.notes.push_back(
+                "the surface does not declare itself isotropic: layers are averages over the "
+                "azimuth of the light");
+        return m;
+    }
+
+    /// Fills one layer; false when it was stopped before two batches were complete.
+    bool fill(Layer& layer, const Incidence& light, std::uint32_t stream,
+              std::vector<std::string>& notes) {
+        LayerSums sums = layer_sums();
+        std::uint64_t batches = plan_.batches;
+        trace_batches(light, stream, 0, batches, sums);
+
+        // Refine until the errors are small enough
+        while (experiment_.run.until > 0 && !run_.stop_requested() && !accurate(sums)) {
+            const std::uint64_t room =
+                (plan_.limit - std::min(plan_.limit, sums.rays())) / plan_.largest();
+            const std::uint64_t more = std::min(batches, room);
+            if (more == 0) {
+                notes.push_back(fmt::format(
+                    "layer {} stopped refining at {} rays: the asked error was not reached",
+                    light.number, sums.rays()));
+                break;
+            }
+            rays_ahead_ += more * plan_.largest();
+            run_.set_total(rays_ahead_);
+            trace_batches(light, stream, batches, batches + more, sums);
+            batches += more;
+        }
+
+        if (sums.batches() < 2) return false;
+        layer.number = light.number;
+        layer.theta_i = light.theta;
+        layer.phi_i = light.phi;
+        sums.write(layer);
+        return true;
+    }
+
+    /// Traces the batches [begin, end), each by one thread, and adds them to `sums`.
+    void trace_batches(const Incidence& light, std::uint32_t stream, std::uint64_t begin,
+                       std::uint64_t end, LayerSums& sums) {
+        std::mutex mutex;
+        parallel_for(static_cast<std::size_t>(end - begin), run_.threads(), [&](std::size_t k) {
+            const std::uint64_t b = begin + k;
+            if (run_.stop_requested()) return;
+            std::unique_ptr<BatchSums> batch_sums = borrow_sums();
+            // Choose start points
+            const LaunchBatch batch(surface_, double{tracer_.max_height()}, light,
+                                    experiment_.run.launch, plan_.rays_of(b), experiment_.run.seed,
+                                    stream, static_cast<std::uint32_t>(b));
+            // Follow the rays until they leave, and sort them by direction
+            const Scene scene{tracer_, fresnel_, detector_, experiment_.run.bounces,
+                              light.isotropic};
+            for (std::uint64_t first = 0; first < batch.rays(); first += kChunk) {
+                if (run_.stop_requested()) return;
+                const std::uint64_t last = std::min(first + kChunk, batch.rays());
+                follow(scene, batch, first, last, *batch_sums);
+                run_.advance(last - first);
+            }
+            // Add the batch to its layer; integers, so the order does not matter
+            {
+                const std::scoped_lock lock(mutex);
+                sums.add(*batch_sums);
+            }
+            give_back(std::move(batch_sums));
+        });
+    }
+
+    bool accurate(const LayerSums& sums) const {
+        const RunSettings& run = experiment_.run;
+        const LayerSums::Errors errors = sums.relative_errors();
+        const double cells = run.until_cells > 0 ? run.until_cells : run.until;
+        return errors.albedo <= run.until && errors.cells <= cells;
+    }
+
+    LayerSums layer_sums() const {
+        return {detector_.cells(), fresnel_.channels(), orders(), experiment_.run.bounces,
+                plan_.largest()};
+    }
+    int orders() const { return std::min(experiment_.detector.orders, experiment_.run.bounces); }
+
+    // Working memory is used again by the next batch.
+    std::unique_ptr<BatchSums> borrow_sums() {
+        {
+            const std::scoped_lock lock(spare_mutex_);
+            if (!spare_.empty()) {
+                auto sums = std::move(spare_.back());
+                spare_.pop_back();
+                return sums;
+            }
+        }
+        return std::make_unique<BatchSums>(detector_.cells(), fresnel_.channels(), orders(),
+                                           experiment_.run.bounces);
+    }
+    void give_back(std::unique_ptr<BatchSums> sums) {
+        sums->clear();
+        const std::scoped_lock lock(spare_mutex_);
+        spare_.push_back(std::move(sums));
+    }
+
+    const Heightfield& surface_;
+    const Experiment& experiment_;
+    Run& run_;
+    const Fresnel fresnel_;
+    const Tracer tracer_;
+    const Detector detector_;
+    const BatchPlan plan_;
+    std::uint64_t rays_ahead_ = 0;
+    std::mutex spare_mutex_;
+    std::vector<std::unique_ptr<BatchSums>> spare_;
+};
+
+}  // namespace
+
+Measurement measure(const Heightfield& surface, const Experiment& experiment, Run& run) {
+    validate(experiment);
+    validate(surface, surface.name);
+    return Gonioreflectometer(surface, experiment, run).measure();
+}
+
+}  // namespace asperity

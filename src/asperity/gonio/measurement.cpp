@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/gonio/measurement.h>
+
+#include <asperity/core/energy.h>
+
+#include <algorithm>
+
+namespace asperity {
+
+namespace {
+std::size_t index(int a) {
+    return static_cast<std::size_t>(a);
+}
+}  // namespace
+
+int Measurement::orders() const {
+    return std::min(experiment.detector.orders, experiment.run.bounces);
+}
+
+double Measurement::energy(const Layer& layer, int order, int channel, int cell) const {
+    const std::size_t slice = index(order) * index(channels()) + index(channel);
+    return energy_fraction(layer.energy[slice * index(detector.cells()) + index(cell)], layer.rays);
+}
+
+double Measurement::energy(const Layer& layer, int channel, int cell) const {
+    std::uint64_t sum = 0;
+    for (int order = 0; order < orders(); ++order) {
+        const std::size_t slice = index(order) * index(channels()) + index(channel);
+        sum += layer.energy[slice * index(detector.cells()) + index(cell)];
+    }
+    return energy_fraction(sum, layer.rays);
+}
+
+double Measurement::brdf(const Layer& layer, int channel, int cell) const {
+    return energy(layer, channel, cell) / detector.projected_solid_angle(cell / detector.columns());
+}
+
+double Measurement::brdf_stderr(const Layer& layer, int channel, int cell) const {
+    const std::size_t k = index(channel) * index(detector.cells()) + index(cell);
+    return double{layer.stderr_energy[k]} /
+           detector.projected_solid_angle(cell / detector.columns());
+}
+
+double Measurement::albedo(const Layer& layer, int channel) const {
+    return energy_fraction(layer.escaped[index(channel)], layer.rays);
+}
+
+double Measurement::albedo(const Layer& layer, int order, int channel) const {
+    const std::size_t k = index(channel) * index(bounces()) + index(order);
+    return energy_fraction(layer.escaped_by_bounce[k], layer.rays);
+}
+
+}  // namespace asperity
