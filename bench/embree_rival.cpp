@@ -240,7 +240,7 @@ class EmbreeRival : public Rival {
           geometry_(std::move(geometry)),
           lift_(std::max(scene_->tile_x, scene_->tile_y) * 0x1p-21F) {}
 
-    std::string name() const override { return "embree_" + geometry_ + "_" + Rays::kName; }
+    std::string name() const override { return "embree_" + geometry_ + Rays::kName; }
     std::size_t memory_bytes() const override { return scene_->memory_bytes(); }
     double build_seconds() const override { return scene_->build_seconds; }
 
@@ -357,10 +357,10 @@ std::vector<std::unique_ptr<Rival>> make_embree_rivals(const Heightfield& surfac
     const auto triangles = std::make_shared<const Scene>(surface, Geometry::Triangles);
     const auto grid = std::make_shared<const Scene>(surface, Geometry::Grid);
     std::vector<std::unique_ptr<Rival>> rivals;
-    rivals.push_back(std::make_unique<EmbreeRival<SingleRays>>(triangles, "triangles"));
-    rivals.push_back(std::make_unique<EmbreeRival<PacketRays<8>>>(triangles, "triangles"));
+    rivals.push_back(std::make_unique<EmbreeRival<SingleRays>>(triangles, "tri"));
+    rivals.push_back(std::make_unique<EmbreeRival<PacketRays<8>>>(triangles, "tri"));
     if (triangles->has_wide_registers()) {
-        rivals.push_back(std::make_unique<EmbreeRival<PacketRays<16>>>(triangles, "triangles"));
+        rivals.push_back(std::make_unique<EmbreeRival<PacketRays<16>>>(triangles, "tri"));
     }
     rivals.push_back(std::make_unique<EmbreeRival<PacketRays<8>>>(grid, "grid"));
     return rivals;

@@ -34,7 +34,7 @@ struct Row {
     const Measured& best() const;
     double ratio() const { return own().paths_per_second() / best().paths_per_second(); }
     /// Largest distance of another rival's histogram from ours, in units of the distance that runs
-    /// with independent launch points would have; below 1 where both trace the same paths.
+    /// with independent launch points would have; far below 1 where all follow the same paths.
     double disagreement() const;
 };
 

@@ -20,26 +20,25 @@ std::uint32_t every_second_bit(std::uint64_t code) {
     return result;
 }
 
-/// Splits a position in cells into the cell and the place inside it.
-void place(double position, std::int32_t& cell, float& inside) {
-    cell = static_cast<std::int32_t>(position);
-    inside = static_cast<float>(position - cell);
-    if (inside >= 1.0F) inside = std::nextafter(1.0F, 0.0F);
-}
-
 }  // namespace
 
-std::vector<Launch> stratified_launch(const Heightfield& surface, int strata, std::uint64_t seed) {
-    const std::uint64_t count =
-        static_cast<std::uint64_t>(strata) * static_cast<std::uint64_t>(strata);
-    const double width = static_cast<double>(surface.cells_x()) / strata;
-    const double depth = static_cast<double>(surface.cells_y()) / strata;
+std::vector<Launch> blocked_launch(const Heightfield& surface, int count, std::uint64_t seed) {
+    constexpr std::uint64_t kPerBlock = std::uint64_t{kBlock} * kBlock;
+    // A prime larger than the number of blocks: k * kStride visits all of them before any again.
+    constexpr std::uint64_t kStride = 2654435761;
+    const auto columns = static_cast<std::uint64_t>(surface.nx / kBlock);
+    const std::uint64_t blocks = columns * static_cast<std::uint64_t>(surface.ny / kBlock);
     const CounterRandom random(seed, 0);
-    std::vector<Launch> launch(count);
-    for (std::uint64_t k = 0; k < count; ++k) {
-        const auto shift = random.uniform2(k);
-        place((every_second_bit(k) + shift[0]) * width, launch[k].i, launch[k].u);
-        place((every_second_bit(k >> 1) + shift[1]) * depth, launch[k].j, launch[k].v);
+    std::vector<Launch> launch(static_cast<std::size_t>(count));
+    for (std::uint64_t k = 0; k < launch.size(); ++k) {
+        const std::uint64_t block = k / kPerBlock * kStride % blocks;
+        const std::uint64_t inside = k % kPerBlock;
+        const auto bits = random.bits(k);
+        launch[k] = {
+            static_cast<std::int32_t>(block % columns * kBlock + every_second_bit(inside)),
+            static_cast<std::int32_t>(block / columns * kBlock + every_second_bit(inside >> 1)),
+            static_cast<float>(bits[0] >> 8) * 0x1p-24F,
+            static_cast<float>(bits[1] >> 8) * 0x1p-24F};
     }
     return launch;
 }

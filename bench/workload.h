@@ -22,13 +22,19 @@ struct Workload {
     const Heightfield* surface = nullptr;
     double theta_deg = 0;        ///< of incidence
     Vec3 direction;              ///< of travel, unit length
-    std::vector<Launch> launch;  ///< stratified over the tile, along a Z-order curve
+    std::vector<Launch> launch;  ///< see blocked_launch
     int bounces = 16;            ///< reflections a path may make
 };
 
-/// strata x strata launch points, one at a random place in each stratum of the tile; `strata` is a
-/// power of two. Neighbours in the list are neighbours on the surface, which every tracer likes.
-std::vector<Launch> stratified_launch(const Heightfield& surface, int strata, std::uint64_t seed);
+/// Launch points come in blocks of kBlock x kBlock surface cells, one point at a random place in
+/// each cell, along a Z-order curve: as dense as a measurement with one ray per cell, so that every
+/// tracer finds in its caches what it would find there.
+inline constexpr int kBlock = 64;
+
+/// `count` launch points, a multiple of kBlock^2, in blocks spread over the surface; with more
+/// blocks than the surface has, each is used again. The side of the surface is a multiple of
+/// kBlock.
+std::vector<Launch> blocked_launch(const Heightfield& surface, int count, std::uint64_t seed);
 
 /// Direction of travel of light from polar angle `theta_deg`. The azimuth, 25 degrees, lies along
 /// no line of the triangle grid: no tracer gets its easy case.
