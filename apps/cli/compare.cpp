@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// asperity compare: how far two BRDFs, measured or analytic, lie apart.
+#include "console.h"
+#include "help.h"
+#include "options.h"
+#include "report_json.h"
+#include "table.h"
+#include "verbs.h"
+
+#include <asperity/brdf/compare.h>
+#include <asperity/brdf/spec.h>
+#include <asperity/core/directions.h>
+#include <asperity/core/error.h>
+#include <asperity/core/run.h>
+#include <asperity/io/result_file.h>
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+namespace asperity::cli {
+
+namespace {
+
+constexpr const char* kClosing =
+    "A and B are result files or models:\n"
+    "  lambert:albedo=0.5\n"
+    "  cook-torrance:roughness=0.4,metallic=1,albedo=1/0.8/0.3,k=direct|ibl\n"
+    "  ggx:alpha=0.3,alpha_y=0.1,masking=correlated|separable,material=Au\n"
+    "  beckmann:alpha=0.3,f0=0.9\n"
+    "Models are averaged over the same cells. Light and detector options are for two models.\n"
+    "L1 is the integral of |fa - fb| cos(theta) over the hemisphere (0 equal, 2 apart); noise is\n"
+    "what it would be from the error bars alone; RMS is of the same difference, in 1/sr.\n"
+    "\n"
+    "Examples\n"
+    "  asperity compare rough.asperity cook-torrance:roughness=0.55,metallic=1\n"
+    "  asperity compare first.asperity second.asperity --json\n"
+    "  asperity compare ggx:alpha=0.3 beckmann:alpha=0.3 --theta 0,30,60 --resolution 64\n";
+
+/// One side of a comparison.
+struct Side {
+    std::unique_ptr<Brdf> model;               ///< set when the side is a model
+    std::unique_ptr<Measurement> measurement;  ///< set when it is a file
+};
+
+Side open_side(const std::string& text) {
+    Side side;
+    if (is_brdf_spec(text)) {
+        side.model = parse_brdf_spec(text);
+        return side;
+    }
+    std::error_code ignored;
+    if (!std::filesystem::exists(text, ignored)) {
+        throw Error(ErrorCode::InputOutput,
+                    "there is no such file, and no such model (lambert, cook-torrance, ggx, "
+                    "beckmann)",
+                    text);
+    }
+    side.measurement = std::make_unique<Measurement>(io::load_measurement(text));
+    return side;
+}
+
+/// The same comparison with A and B in each other's place.
+Comparison swapped(Comparison comparison) {
+    std::swap(comparison.name_a, comparison.name_b);
+    for (LayerComparison& layer : comparison.layers) {
+        std::swap(layer.albedo_a, layer.albedo_b);
+        layer.albedo_difference = -layer.albedo_difference;
+    }
+    return comparison;
+}
+
+std::string text_of_comparison(const Comparison& comparison) {
+    std::string text = fmt::format("A: {}\nB: {}\n", comparison.name_a, comparison.name_b);
+    Table table({"layer", "theta_i", "phi_i", "albedo A", "albedo B", "A - B", "L1", "noise",
+                 "RMS [1/sr]"});
+    for (const LayerComparison& c : comparison.layers) {
+        table.add({std::to_string(c.number), fmt::format("{:.4g}°", degrees(c.theta_i)),
+                   fmt::format("{:.4g}°", degrees(c.phi_i)), fmt::format("{:.5f}", c.albedo_a),
+                   fmt::format("{:.5f}", c.albedo_b), fmt::format("{:+.5f}", c.albedo_difference),
+                   fmt::format("{:.4f}", c.l1), fmt::format("{:.4f}", c.l1_noise),
+                   fmt::format("{:.4g}", c.rms)});
+    }
+    return text + table.text() +
+           fmt::format("mean L1 {:.4f}, mean RMS {:.4g} 1/sr, largest albedo difference {:.5f}\n",
+                       comparison.mean_l1, comparison.mean_rms, comparison.max_albedo_difference);
+}
+
+class CompareVerb {
+  public:
+    explicit CompareVerb(CLI::App& app) {
+        a_ = add_text(app, "a", "A", "a result file or a model", "");
+        b_ = add_text(app, "b", "B", "a result file or a model", "");
+        experiment_.add_to(app, {kLight, kDetector}, false);
+        threads_.add_to(app);
+        app.add_flag("--json", json_, "print one JSON object")->group(kOutput);
+        set_help(app, "compare A B [options]", kClosing);
+    }
+
+    int run() {
+        if (b_->count() == 0) {
+            throw Error(ErrorCode::Usage, "compare needs two result files or models");
+        }
+        const Experiment experiment = experiment_.read();
+        validate(experiment);
+        const int threads = Run(threads_.threads()).threads();
+        const Comparison comparison =
+            compare_sides(open_side(text_of(a_)), open_side(text_of(b_)), experiment, threads);
+        if (json_) {
+            write_json(to_json(comparison));
+        } else {
+            write_out(text_of_comparison(comparison));
+        }
+        return 0;
+    }
+
+  private:
+    Comparison compare_sides(const Side& a, const Side& b, const Experiment& experiment,
+                             int threads) const {
+        Comparison comparison;
+        if (a.model && b.model) {
+            comparison = compare(*a.model, *b.model, experiment, threads);
+        } else if (experiment_.any_given()) {
+            throw Error(ErrorCode::Usage,
+                        "a result file brings its own light and detector; these options are for "
+                        "two models");
+        } else if (b.model) {
+            comparison = compare(*a.measurement, *b.model, threads);
+        } else if (a.model) {
+            comparison = swapped(compare(*b.measurement, *a.model, threads));
+        } else {
+            comparison = compare(*a.measurement, *b.measurement);
+        }
+        // Sides carry the names the user gave them.
+        comparison.name_a = text_of(a_);
+        comparison.name_b = text_of(b_);
+        return comparison;
+    }
+
+    ExperimentOptions experiment_;
+    ThreadsOption threads_;
+    CLI::Option *a_ = nullptr, *b_ = nullptr;
+    bool json_ = false;
+};
+
+}  // namespace
+
+Verb add_compare(CLI::App& program) {
+    CLI::App* app = program.add_subcommand("compare", "tell how far two BRDFs lie apart");
+    const auto verb = std::make_shared<CompareVerb>(*app);
+    return {app, [verb] { return verb->run(); }};
+}
+
+}  // namespace asperity::cli

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "console.h"
+
+#include <asperity/core/error.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+namespace asperity::cli {
+
+void prepare_standard_streams() {
+    std::signal(SIGPIPE, SIG_IGN);
+    // open() gives the lowest free number. Standard output is opened for reading, so that writing
+    // to it fails as it would on a closed stream.
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+        if (fcntl(stream, F_GETFD) != -1) continue;
+        const int mode = stream == STDERR_FILENO ? O_WRONLY : O_RDONLY;
+        if (open("/dev/null", mode) != stream) return;
+    }
+}
+
+void write_out(std::string_view text) {
+    const std::size_t written = std::fwrite(text.data(), 1, text.size(), stdout);
+    if (written == text.size() && std::fflush(stdout) == 0) return;
+    if (errno == EPIPE) throw BrokenPipe{};
+    throw Error(ErrorCode::InputOutput, std::strerror(errno), "standard output");
+}
+
+void write_err(std::string_view text) {
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::fflush(stderr);
+}
+
+bool err_is_terminal() {
+    return isatty(STDERR_FILENO) == 1;
+}
+
+void Talk::operator()(std::string_view text) const {
+    if (quiet_) return;
+    if (json_) {
+        write_err(text);
+    } else {
+        write_out(text);
+    }
+}
+
+}  // namespace asperity::cli

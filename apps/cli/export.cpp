@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// asperity export: the layers of a result as images other programs read.
+#include "console.h"
+#include "help.h"
+#include "options.h"
+#include "output_path.h"
+#include "verbs.h"
+
+#include <asperity/core/error.h>
+#include <asperity/io/pictures.h>
+#include <asperity/io/result_file.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+namespace asperity::cli {
+
+namespace {
+
+constexpr const char* kClosing =
+    "Examples\n"
+    "  asperity export metal.asperity -o layers.exr     (all layers, one EXR part each, f in "
+    "1/sr)\n"
+    "  asperity export metal.asperity -o pictures/      (a PNG per layer and sheet.png)\n"
+    "  asperity export metal.asperity -o sheet.png --projection disk --colour-map viridis\n";
+
+/// The value a name stands for; throws Error(Usage, option) listing the names there are.
+template <typename Value>
+Value choose(const std::string& option, const std::string& name,
+             std::initializer_list<std::pair<const char*, Value>> choices) {
+    std::vector<std::string> names;
+    for (const auto& [known, value] : choices) {
+        if (name == known) return value;
+        names.emplace_back(known);
+    }
+    throw Error(ErrorCode::Usage, fmt::format("'{}' is none of {}", name, fmt::join(names, ", ")),
+                option);
+}
+
+class ExportVerb {
+  public:
+    explicit ExportVerb(CLI::App& app) {
+        file_ = add_text(app, "file", "FILE", "a result of asperity simulate", "");
+        output_ =
+            add_text(app, "-o,--output", "X.exr | X.png | FOLDER/",
+                     "a multi-part EXR, one sheet of all layers, or a folder of pictures", kOutput);
+        colour_map_ = add_text(app, "--colour-map,--color-map", "NAME",
+                               "PNG: viridis, inferno, grey or thesis-red", kOutput)
+                          ->default_str("inferno");
+        scale_ =
+            add_text(app, "--scale", "NAME", "PNG: log or linear", kOutput)->default_str("log");
+        decades_ = add_text(app, "--decades", "D", "PNG: decades of the log scale", kOutput)
+                       ->default_str("4");
+        projection_ =
+            add_text(app, "--projection", "NAME",
+                     "PNG: sky-map (azimuth x angle) or disk (hemisphere from above)", kOutput)
+                ->default_str("sky-map");
+        channel_ = add_text(app, "--channel", "NAME", "PNG: one channel, by name or number from 0",
+                            kOutput)
+                       ->default_str("mean of all");
+        app.add_flag("--quiet", quiet_, "do not name the files written")->group(kOutput);
+        set_help(app, "export FILE -o X.exr | X.png | FOLDER/", kClosing);
+    }
+
+    int run() const {
+        if (file_->count() == 0) throw Error(ErrorCode::Usage, "export needs a result file");
+        if (output_->count() == 0) {
+            throw Error(ErrorCode::Usage, "export needs -o with a name ending in .exr, .png or /");
+        }
+        const std::string path = text_of(output_);
+        io::SkyMapSettings look = look_of_options();
+        const bool folder = is_folder(path);
+        folder ? check_output_folder(path) : check_output_file(path);
+
+        const Measurement m = io::load_measurement(text_of(file_));
+        look.channel = channel_of(m);
+        std::vector<std::string> written = {path};
+        if (folder) {
+            written = io::write_layer_pngs(m, path, look);
+            const std::string sheet = (std::filesystem::path(path) / "sheet.png").string();
+            io::write_layer_sheet(m, sheet, look);
+            written.push_back(sheet);
+        } else if (ending(path) == "exr") {
+            io::write_layers_exr(m, path);
+        } else {
+            io::write_layer_sheet(m, path, look);
+        }
+        const Talk say(quiet_, false);
+        for (const std::string& name : written) say("wrote " + name + "\n");
+        return 0;
+    }
+
+  private:
+    io::SkyMapSettings look_of_options() const {
+        io::SkyMapSettings look;
+        look.colour_map = choose<io::ColourMap>("colour-map", text_of(colour_map_, "inferno"),
+                                                {{"viridis", io::ColourMap::Viridis},
+                                                 {"inferno", io::ColourMap::Inferno},
+                                                 {"grey", io::ColourMap::Grey},
+                                                 {"thesis-red", io::ColourMap::ThesisRed}});
+        look.scale = choose<io::Scale>("scale", text_of(scale_, "log"),
+                                       {{"log", io::Scale::Log}, {"linear", io::Scale::Linear}});
+        look.projection = choose<io::Projection>(
+            "projection", text_of(projection_, "sky-map"),
+            {{"sky-map", io::Projection::SkyMap}, {"disk", io::Projection::Disk}});
+        look.decades = parse_positive("decades", text_of(decades_, "4"));
+        constexpr double kMostDecades = 30;
+        if (look.decades > kMostDecades) {
+            throw Error(ErrorCode::Usage, fmt::format("{} is above 30", look.decades), "decades");
+        }
+        return look;
+    }
+
+    static bool is_folder(const std::string& path) {
+        std::error_code ignored;
+        if (!path.empty() && path.back() == '/') return true;
+        if (std::filesystem::is_directory(path, ignored)) return true;
+        const std::string kind = ending(path);
+        if (kind == "exr" || kind == "png") return false;
+        if (kind.empty() && !path.empty()) return true;
+        throw Error(ErrorCode::Usage, "the name must end in .exr, .png or /", path);
+    }
+
+    int channel_of(const Measurement& m) const {
+        if (channel_->count() == 0) return io::SkyMapSettings{}.channel;
+        const std::string name = text_of(channel_);
+        const auto found = std::find(m.channel_names.begin(), m.channel_names.end(), name);
+        if (found != m.channel_names.end()) {
+            return static_cast<int>(found - m.channel_names.begin());
+        }
+        const bool number = !name.empty() && name.find_first_not_of("0123456789") == name.npos;
+        if (number) return parse_count("channel", name, 0, m.channels() - 1);
+        throw Error(ErrorCode::Usage,
+                    fmt::format("'{}' is none of {}", name, fmt::join(m.channel_names, ", ")),
+                    "channel");
+    }
+
+    CLI::Option *file_ = nullptr, *output_ = nullptr, *colour_map_ = nullptr, *scale_ = nullptr,
+                *decades_ = nullptr, *projection_ = nullptr, *channel_ = nullptr;
+    bool quiet_ = false;
+};
+
+}  // namespace
+
+Verb add_export(CLI::App& program) {
+    CLI::App* app = program.add_subcommand("export", "write the layers as EXR or PNG");
+    const auto verb = std::make_shared<ExportVerb>(*app);
+    return {app, [verb] { return verb->run(); }};
+}
+
+}  // namespace asperity::cli

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program: finds the verb, runs it, and says in one line what went wrong.
+#include "console.h"
+#include "help.h"
+#include "suggest.h"
+#include "verbs.h"
+
+#include <asperity/core/error.h>
+#include <asperity/core/version.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace asperity::cli {
+
+namespace {
+
+constexpr const char* kProgramClosing =
+    "asperity VERB --help explains a verb.\n"
+    "\n"
+    "Start here\n"
+    "  asperity simulate --surface gaussian --alpha 0.3 --isotropic -o metal.asperity\n"
+    "  asperity info metal.asperity\n"
+    "  asperity export metal.asperity -o pictures/\n"
+    "  asperity compare metal.asperity cook-torrance:roughness=0.55,metallic=1\n"
+    "\n"
+    "Exit codes: 0 done, 2 wrong use, 3 bad input, 4 input/output, 5 memory, 130 stopped.\n";
+
+/// One line: an error never spreads over several.
+std::string one_line(std::string text) {
+    for (char& c : text) {
+        if (c == '\n' || c == '\r') c = ' ';
+    }
+    while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
+    return text;
+}
+
+void say_error(const std::string& text) {
+    write_err("asperity: error: " + one_line(text) + "\n");
+}
+
+std::vector<std::string> names_of(const std::vector<Verb>& verbs) {
+    std::vector<std::string> names;
+    for (const Verb& verb : verbs) names.push_back(verb.app->get_name());
+    return names;
+}
+
+/// Refuses what no verb or option of the verb took.
+void check_leftovers(const CLI::App& program, const std::vector<Verb>& verbs) {
+    const std::vector<CLI::App*> chosen = program.get_subcommands();
+    const std::vector<std::string> leftovers = (chosen.empty() ? &program : chosen[0])->remaining();
+    if (leftovers.empty()) {
+        if (!chosen.empty()) return;
+        throw Error(ErrorCode::Usage, fmt::format("no verb given ({}); asperity --help explains",
+                                                  fmt::join(names_of(verbs), ", ")));
+    }
+    const auto is_option = [](const std::string& word) { return word.rfind('-', 0) == 0; };
+    const auto option = std::find_if(leftovers.begin(), leftovers.end(), is_option);
+    const std::string word = option == leftovers.end() ? leftovers[0] : *option;
+    if (chosen.empty()) {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("unknown verb '{}'{}", word, did_you_mean(word, names_of(verbs))));
+    }
+    std::vector<std::string> names;
+    for (const CLI::Option* known : chosen[0]->get_options()) {
+        for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
+    }
+    throw Error(ErrorCode::Usage,
+                is_option(word) ? fmt::format("{} has no option {}{}", chosen[0]->get_name(), word,
+                                              did_you_mean(word.substr(0, word.find('=')), names))
+                                : fmt::format("{} does not know what to do with '{}'",
+                                              chosen[0]->get_name(), word));
+}
+
+int run_program(int argc, char** argv) {
+    CLI::App program("a virtual gonioreflectometer: from a rough surface to its BRDF", "asperity");
+    program.set_version_flag("--version", std::string("asperity ") + kVersion);
+    set_program_help(program, kProgramClosing);
+    // The verbs check their own needs, so that a mistyped option is named before a missing one.
+    program.allow_extras();
+    program.require_subcommand(0, 1);
+    const std::vector<Verb> verbs = {add_surface(program), add_simulate(program),
+                                     add_info(program),    add_compare(program),
+                                     add_export(program),  add_selftest(program)};
+    for (const Verb& verb : verbs) verb.app->allow_extras();
+
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::CallForVersion& version) {
+        write_out(std::string(version.what()) + "\n");
+        return 0;
+    } catch (const CLI::CallForHelp&) {
+        const std::vector<CLI::App*> chosen = program.get_subcommands();
+        write_out((chosen.empty() ? &program : chosen[0])->help());
+        return 0;
+    } catch (const CLI::ParseError& error) {
+        throw Error(ErrorCode::Usage, error.what());
+    }
+    check_leftovers(program, verbs);
+    const auto chosen = std::find_if(verbs.begin(), verbs.end(),
+                                     [](const Verb& verb) { return verb.app->parsed(); });
+    return chosen->run();
+}
+
+}  // namespace
+
+}  // namespace asperity::cli
+
+int main(int argc, char** argv) {
+    using namespace asperity;
+    const auto fail = [](ErrorCode code, const std::string& text) {
+        cli::say_error(text);
+        return static_cast<int>(code);
+    };
+    try {
+        cli::prepare_standard_streams();
+        return cli::run_program(argc, argv);
+    } catch (const cli::BrokenPipe&) {
+        return static_cast<int>(ErrorCode::InputOutput);
+    } catch (const Error& error) {
+        return fail(error.code(), error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::OutOfMemory, "not enough memory");
+    } catch (const std::length_error&) {
+        return fail(ErrorCode::OutOfMemory, "more memory asked for than there can be");
+    } catch (const std::exception& error) {
+        cli::say_error(std::string("unexpected: ") + error.what());
+        return 1;
+    }
+}

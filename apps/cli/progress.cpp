@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "progress.h"
+
+#include "console.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace asperity::cli {
+
+namespace {
+
+constexpr std::size_t kBarWidth = 24;
+constexpr double kSecondsBetweenLines = 10;
+
+std::string line_of(const Progress& p) {
+    const double share =
+        p.total == 0 ? 0 : static_cast<double>(p.done) / static_cast<double>(p.total);
+    const auto filled = static_cast<std::size_t>(share * double{kBarWidth});
+    std::string line = fmt::format("{} [{}{}] {:3.0f} %", p.stage, std::string(filled, '#'),
+                                   std::string(kBarWidth - filled, '.'), 100 * share);
+    if (p.per_second > 0) {
+        // Only light is counted in rays.
+        if (p.stage == "tracing") line += fmt::format("  {}rays/s", short_number(p.per_second));
+        line += fmt::format("  {} left", clock_text(p.seconds_left));
+    }
+    return line;
+}
+
+}  // namespace
+
+std::string clock_text(double seconds) {
+    const auto whole = static_cast<long long>(std::ceil(std::clamp(seconds, 0.0, 1e9)));
+    if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
+    return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+std::string short_number(double value) {
+    if (value >= 1e9) return fmt::format("{:.2f} G", value / 1e9);
+    if (value >= 1e6) return fmt::format("{:.2f} M", value / 1e6);
+    if (value >= 1e3) return fmt::format("{:.1f} k", value / 1e3);
+    return fmt::format("{:.0f} ", value);
+}
+
+ProgressBar::ProgressBar(Run& run, bool quiet) : run_(run), terminal_(err_is_terminal()) {
+    if (!quiet) run.on_progress([this](const Progress& progress) { show(progress); });
+}
+
+ProgressBar::~ProgressBar() {
+    run_.on_progress({});
+    clear();
+}
+
+void ProgressBar::clear() {
+    if (drawn_) write_err("\r\x1b[K");
+    drawn_ = false;
+}
+
+void ProgressBar::show(const Progress& progress) {
+    const std::scoped_lock lock(mutex_);
+    if (progress.total == 0) return;
+    if (terminal_) {
+        write_err("\r" + line_of(progress) + "\x1b[K");
+        drawn_ = true;
+        return;
+    }
+    if (progress.stage != stage_) {
+        stage_ = progress.stage;
+        quarters_ = 0;
+        last_seconds_ = 0;
+    }
+    const int quarters = static_cast<int>(
+        4 * (static_cast<double>(progress.done) / static_cast<double>(progress.total)));
+    const bool due = progress.seconds - last_seconds_ > kSecondsBetweenLines;
+    if (quarters > quarters_ && quarters < 4 && due) {
+        quarters_ = quarters;
+        last_seconds_ = progress.seconds;
+        write_err(line_of(progress) + "\n");
+    }
+}
+
+}  // namespace asperity::cli

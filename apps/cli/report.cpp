@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report.h"
+
+#include "progress.h"
+#include "table.h"
+
+#include <asperity/core/directions.h>
+#include <asperity/core/energy.h>
+#include <asperity/io/experiment_text.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace asperity::cli {
+
+namespace {
+
+/// Mean over the channels of a figure of each.
+double channel_mean(int channels, const std::function<double(int)>& figure) {
+    double sum = 0;
+    for (int c = 0; c < channels; ++c) sum += figure(c);
+    return sum / channels;
+}
+
+/// A share of the launched energy in percent.
+std::string percent(double share) {
+    return fmt::format("{:.2f} %", 100 * share);
+}
+
+std::string angle(double theta) {
+    return fmt::format("{:.4g}°", degrees(theta));
+}
+
+std::string with_error(double value, double error) {
+    return fmt::format("{:.5f} ± {:.5f}", value, error);
+}
+
+const LayerComparison* comparison_of(const Layer& layer, const Comparison& comparison) {
+    const auto same = [&](const LayerComparison& c) {
+        return c.theta_i == layer.theta_i && c.phi_i == layer.phi_i;
+    };
+    const auto found = std::find_if(comparison.layers.begin(), comparison.layers.end(), same);
+    return found == comparison.layers.end() ? nullptr : &*found;
+}
+
+/// Up to three channels get an albedo column each; more are averaged.
+constexpr int kChannelColumns = 3;
+
+class LayerTable {
+  public:
+    LayerTable(const Measurement& measurement, const std::optional<Comparison>& comparison)
+        : m_(measurement),
+          comparison_(comparison),
+          phi_(std::any_of(m_.layers.begin(), m_.layers.end(),
+                           [](const Layer& layer) { return layer.phi_i != 0; })),
+          edge_(has_edges(m_.experiment.surface)) {}
+
+    std::string text() const {
+        Table table(heads());
+        for (const Layer& layer : m_.layers) table.add(row(layer));
+        return table.text();
+    }
+
+  private:
+    std::vector<std::string> heads() const {
+        std::vector<std::string> heads = {"layer", "theta_i"};
+        if (phi_) heads.push_back("phi_i");
+        if (m_.channels() == 1 || m_.channels() > kChannelColumns) {
+            heads.push_back("albedo ± std. error");
+        } else {
+            for (const std::string& name : m_.channel_names) heads.push_back("albedo " + name);
+        }
+        heads.insert(heads.end(), {"1 bounce", "2 bounces", "3+", "absorbed", "truncated"});
+        if (edge_) heads.push_back("edge loss");
+        if (comparison_) heads.push_back("L1");
+        return heads;
+    }
+
+    std::vector<std::string> row(const Layer& layer) const {
+        std::vector<std::string> cells = {std::to_string(layer.number), angle(layer.theta_i)};
+        if (phi_) cells.push_back(angle(layer.phi_i));
+        add_albedo(layer, cells);
+        add_bounces(layer, cells);
+        const auto share = [&](const std::vector<std::uint64_t>& energy) {
+            return percent(channel_mean(m_.channels(), [&](int c) {
+                return energy_fraction(energy[static_cast<std::size_t>(c)], layer.rays);
+            }));
+        };
+        cells.push_back(share(layer.absorbed));
+        cells.push_back(share(layer.truncated));
+        if (edge_) cells.push_back(share(layer.edge));
+        if (comparison_) {
+            const LayerComparison* found = comparison_of(layer, *comparison_);
+            cells.push_back(found ? fmt::format("{:.4f}", found->l1) : "-");
+        }
+        return cells;
+    }
+
+    void add_albedo(const Layer& layer, std::vector<std::string>& cells) const {
+        const auto albedo = [&](int c) { return m_.albedo(layer, c); };
+        const auto error = [&](int c) { return layer.stderr_albedo[static_cast<std::size_t>(c)]; };
+        if (m_.channels() > kChannelColumns) {
+            // Channels share their paths, so errors may all have one sign: their mean bounds it.
+            cells.push_back(with_error(channel_mean(m_.channels(), albedo),
+                                       channel_mean(m_.channels(), error)));
+        } else {
+            for (int c = 0; c < m_.channels(); ++c) {
+                cells.push_back(with_error(albedo(c), error(c)));
+            }
+        }
+    }
+
+    /// Shares of the energy that escapes after one, two, and more reflections.
+    void add_bounces(const Layer& layer, std::vector<std::string>& cells) const {
+        const auto order = [&](int k) {
+            return k < m_.bounces()
+                       ? channel_mean(m_.channels(), [&](int c) { return m_.albedo(layer, k, c); })
+                       : 0.0;
+        };
+        double rest = 0;
+        for (int k = 2; k < m_.bounces(); ++k) rest += order(k);
+        const double all = order(0) + order(1) + rest;
+        for (double part : {order(0), order(1), rest}) {
+            cells.push_back(all > 0 ? percent(part / all) : "-");
+        }
+    }
+
+    const Measurement& m_;
+    const std::optional<Comparison>& comparison_;
+    bool phi_, edge_;
+};
+
+}  // namespace
+
+std::string kind_name(const SurfaceSettings& settings) {
+    if (settings.kind == SurfaceKind::File) return settings.file;
+    Experiment experiment;
+    experiment.surface = settings;
+    for (const io::Setting& setting : io::settings_of(experiment)) {
+        if (setting.key == "surface") return setting.value;
+    }
+    return {};
+}
+
+bool has_edges(const SurfaceSettings& settings) {
+    return settings.kind == SurfaceKind::File ? settings.tiling == Tiling::Finite
+                                              : settings.boundary == Boundary::Finite;
+}
+
+std::string surface_line(const SurfaceSettings& settings, const SurfaceStatistics& statistics,
+                         int nx, int ny) {
+    std::string asked;
+    const bool random = settings.kind == SurfaceKind::Gaussian || settings.kind == SurfaceKind::Ggx;
+    if (settings.kind == SurfaceKind::Thesis) {
+        asked = fmt::format("roughness {} asked, alpha", settings.roughness);
+    } else if (random && settings.alpha_x == settings.alpha_y) {
+        asked = fmt::format("alpha {} asked,", settings.alpha_x);
+    } else if (random) {
+        asked = fmt::format("alpha {} x {} asked,", settings.alpha_x, settings.alpha_y);
+    } else {
+        asked = "alpha";
+    }
+    return fmt::format(
+        "{}, {} x {} samples, {} {:.4g} realised (x {:.4g}, y {:.4g}), "
+        "RMS height {:.4g}",
+        kind_name(settings), nx, ny, asked, statistics.rms_gradient, statistics.alpha_x,
+        statistics.alpha_y, statistics.rms_height);
+}
+
+std::string tiling_line(const SurfaceSettings& settings) {
+    if (settings.kind != SurfaceKind::File) return {};
+    std::string text;
+    switch (settings.tiling) {
+        case Tiling::Mirrored:
+            text = "made periodic by mirroring";
+            break;
+        case Tiling::Periodic:
+            text = "taken as periodic";
+            break;
+        case Tiling::Finite:
+            text = "a finite patch: rays through its side are lost and counted";
+            break;
+    }
+    const bool is_default = settings.tiling == SurfaceSettings{}.tiling;
+    return text + (is_default ? " (the default of --tiling)" : " (--tiling)");
+}
+
+std::string layer_table(const Measurement& measurement,
+                        const std::optional<Comparison>& comparison) {
+    return LayerTable(measurement, comparison).text();
+}
+
+std::string closing_lines(const Measurement& m) {
+    std::string text;
+    if (m.channels() > 1) {
+        text += m.channels() > kChannelColumns
+                    ? fmt::format("all figures are means over {} channels\n", m.channels())
+                    : "shares are means over the channels\n";
+    }
+    text += fmt::format("{} rays, {:.2f} s, {}rays/s, {} threads\n", launched_total(m),
+                        m.trace_seconds, short_number(rays_per_second(m)), m.threads);
+    for (const std::string& note : m.notes) text += "note: " + note + "\n";
+    return text;
+}
+
+std::uint64_t launched_total(const Measurement& measurement) {
+    std::uint64_t sum = 0;
+    for (const Layer& layer : measurement.layers) sum += layer.rays;
+    return sum;
+}
+
+double rays_per_second(const Measurement& measurement) {
+    return measurement.trace_seconds > 0
+               ? static_cast<double>(launched_total(measurement)) / measurement.trace_seconds
+               : 0.0;
+}
+
+double mean_bounces(const Layer& layer) {
+    return layer.rays == 0
+               ? 0.0
+               : static_cast<double>(layer.reflections) / static_cast<double>(layer.rays);
+}
+
+}  // namespace asperity::cli

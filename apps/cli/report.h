@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/brdf/compare.h>
+#include <asperity/gonio/measurement.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace asperity::cli {
+
+/// A surface in one line, as asked for and as it came out: "gaussian, 512 x 512 cells, alpha 0.3
+/// asked, 0.2998 realised (x 0.2997, y 0.2999), RMS height 1.2".
+std::string surface_line(const SurfaceSettings& settings, const SurfaceStatistics& statistics,
+                         int nx, int ny);
+
+/// How a file that need not repeat fills the plane, and that the default was used if so; empty for
+/// made surfaces.
+std::string tiling_line(const SurfaceSettings& settings);
+
+/// The word the command line uses for a kind, "gaussian"; a file's name.
+std::string kind_name(const SurfaceSettings& settings);
+
+/// Whether the surface is a patch through whose side rays can be lost.
+bool has_edges(const SurfaceSettings& settings);
+
+/// The table of a measurement, a row per layer. `comparison`, when given, adds the L1 column; its
+/// rows are found by incident direction.
+std::string layer_table(const Measurement& measurement,
+                        const std::optional<Comparison>& comparison);
+
+/// What stands below the table: rays, seconds, rays/s, notes.
+std::string closing_lines(const Measurement& measurement);
+
+// Sums over a measurement.
+std::uint64_t launched_total(const Measurement& measurement);
+double rays_per_second(const Measurement& measurement);
+double mean_bounces(const Layer& layer);
+
+}  // namespace asperity::cli

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/brdf/compare.h>
+#include <asperity/gonio/measurement.h>
+
+#include <nlohmann/json.hpp>
+
+namespace asperity::cli {
+
+/// Members stand in the order they are added.
+using Json = nlohmann::ordered_json;
+
+/// The object `info --json` prints. Energies are fractions of the launched energy; `exact` holds
+/// the integers they come from, in units of 2^-32 of a ray, as texts of digits.
+Json to_json(const Measurement& measurement);
+Json to_json(const SurfaceStatistics& statistics);
+Json to_json(const Comparison& comparison);
+/// {"rays": "10000", ...}: what --config reads.
+Json to_json(const Experiment& experiment);
+
+/// Prints one object on standard output, indented.
+void write_json(const Json& object);
+
+}  // namespace asperity::cli

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// asperity surface: make or read a surface, tell its figures, save it, draw it.
+#include "console.h"
+#include "help.h"
+#include "options.h"
+#include "output_path.h"
+#include "progress.h"
+#include "report_json.h"
+#include "stop.h"
+#include "surface_report.h"
+#include "verbs.h"
+
+#include <asperity/core/error.h>
+#include <asperity/io/pictures.h>
+#include <asperity/io/surface_files.h>
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace asperity::cli {
+
+namespace {
+
+constexpr const char* kClosing =
+    "With neither -o nor --png the figures are shown, as with --stats.\n"
+    "\n"
+    "Examples\n"
+    "  asperity surface thesis --roughness 0.2 --size 512 -o thesis.gsf --png thesis.png\n"
+    "  asperity surface gaussian --alpha 0.3 --correlation-length 12 --stats\n"
+    "  asperity surface ggx:alpha=0.5,size=1024 -o rough.gsf\n"
+    "  asperity surface measured.gsf --tiling periodic --stats --json\n";
+
+class SurfaceVerb {
+  public:
+    explicit SurfaceVerb(CLI::App& app) {
+        spec_ = add_text(app, "spec", "SPEC|FILE", "a kind of surface or a file of heights", "");
+        experiment_.add_to(app, {kSurface}, false);
+        threads_.add_to(app);
+        output_ =
+            add_text(app, "-o,--output", "FILE", "save the heights: .gsf, .exr or .txt", kOutput);
+        png_ = add_text(app, "--png", "FILE", "draw the surface seen from above", kOutput);
+        look_ = add_text(app, "--look", "NAME", "of the picture: shaded or normals", kOutput)
+                    ->default_str("shaded");
+        app.add_flag("--stats", stats_, "show the realised figures")->group(kOutput);
+        app.add_flag("--json", json_, "print one JSON object and nothing else")->group(kOutput);
+        app.add_flag("--quiet", quiet_, "print nothing but errors")->group(kOutput);
+        set_help(app, "surface SPEC|FILE [options] [-o FILE] [--png FILE]", kClosing);
+    }
+
+    int run() {
+        const std::string spec = text_of(spec_);
+        if (spec.empty()) {
+            throw Error(ErrorCode::Usage,
+                        "surface needs a kind of surface or a file, such as gaussian");
+        }
+        const SurfaceSettings settings = experiment_.read(spec).surface;
+        check_outputs();
+        const Talk say(quiet_, json_);
+        Run run(threads_.threads());
+        const StopOnSignal stop(run);
+        ProgressBar progress(run, quiet_);
+        const Heightfield surface = io::load_surface(settings, run);
+        const SurfaceReport report(settings, surface, run.threads());
+        if (run.stop_requested()) throw Error(ErrorCode::Stopped, "stopped, nothing is written");
+        progress.clear();
+
+        if (output_->count() > 0) io::write_heights(surface, text_of(output_));
+        if (png_->count() > 0) io::write_surface_png(surface, text_of(png_), look());
+        if (json_) write_json(report.json());
+        if (!json_) tell(say, report);
+        return 0;
+    }
+
+  private:
+    io::SurfaceLook look() const {
+        const std::string name = text_of(look_, "shaded");
+        if (name == "shaded") return io::SurfaceLook::Shaded;
+        if (name == "normals") return io::SurfaceLook::Normals;
+        throw Error(ErrorCode::Usage, fmt::format("'{}' is neither shaded nor normals", name),
+                    "look");
+    }
+
+    void check_outputs() const {
+        look();
+        if (output_->count() > 0) {
+            const std::string path = text_of(output_);
+            const std::string kind = ending(path);
+            if (kind != "gsf" && kind != "exr" && kind != "txt") {
+                throw Error(ErrorCode::Usage, "the name must end in .gsf, .exr or .txt", path);
+            }
+            check_output_file(path);
+        }
+        if (png_->count() > 0) {
+            if (ending(text_of(png_)) != "png") {
+                throw Error(ErrorCode::Usage, "the name must end in .png", text_of(png_));
+            }
+            check_output_file(text_of(png_));
+        }
+    }
+
+    void tell(const Talk& say, const SurfaceReport& report) const {
+        say(report.headline());
+        if (stats_ || (output_->count() == 0 && png_->count() == 0)) say(report.figures());
+        for (const CLI::Option* file : {output_, png_}) {
+            if (file->count() > 0) say("wrote " + text_of(file) + "\n");
+        }
+    }
+
+    ExperimentOptions experiment_;
+    ThreadsOption threads_;
+    CLI::Option *spec_ = nullptr, *output_ = nullptr, *png_ = nullptr, *look_ = nullptr;
+    bool stats_ = false, json_ = false, quiet_ = false;
+};
+
+}  // namespace
+
+Verb add_surface(CLI::App& program) {
+    CLI::App* app = program.add_subcommand("surface", "make, read, describe and draw a surface");
+    const auto verb = std::make_shared<SurfaceVerb>(*app);
+    return {app, [verb] { return verb->run(); }};
+}
+
+}  // namespace asperity::cli
