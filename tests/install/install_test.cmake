@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# BUILD: a complete build; CONSUMER: a project that uses Asperity; WORK: a folder to fill.
+# SOURCE, BUILD: the project and a complete build of it; CONSUMER: a project that uses Asperity; WORK: a folder to fill.
 set(PREFIX ${WORK}/prefix)
 file(REMOVE_RECURSE ${WORK})
 
@@ -25,8 +25,8 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX})
 
 # A library is known by its headers: none of ours may be missing, nothing else may slip in.
 file(GLOB_RECURSE installed RELATIVE ${PREFIX}/include ${PREFIX}/include/*)
-file(GLOB_RECURSE written RELATIVE ${CMAKE_CURRENT_LIST_DIR}/../../src
-    ${CMAKE_CURRENT_LIST_DIR}/../../src/asperity/*.h)
+file(GLOB_RECURSE written RELATIVE ${SOURCE}/src ${SOURCE}/src/asperity/*.h)
+list(FILTER written EXCLUDE REGEX "/test_[^/]*$")  # helpers of tests
 list(SORT installed)
 list(SORT written)
 if(NOT installed STREQUAL written)
