@@ -7,6 +7,10 @@ target_compile_options(asperity_flags INTERFACE
     # Results must not depend on whether the compiler fuses a multiplication with an addition.
     -ffp-contract=off
     -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Wnon-virtual-dtor -Wold-style-cast)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    # False alarms about std::string in optimised builds, GCC bug 105651.
+    target_compile_options(asperity_flags INTERFACE -Wno-restrict)
+endif()
 target_compile_definitions(asperity_flags INTERFACE _GLIBCXX_ASSERTIONS)
 if(ASPERITY_WARNINGS_AS_ERRORS)
     target_compile_options(asperity_flags INTERFACE -Werror)
