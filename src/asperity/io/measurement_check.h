@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/gonio/measurement.h>
+
+#include <string>
+
+namespace asperity::io {
+
+/// Edges of the detector are computed anew when a file is read; two mathematics libraries may
+/// differ by this much [rad].
+inline constexpr double kEdgeTolerance = 1e-12;
+
+/// Why the measurement contradicts itself, in one line; empty when it does not. Looks at the sizes
+/// of all arrays, the detector, and the balance of energy of every layer and channel:
+///     rays * 2^32 = escaped + absorbed + truncated + edge
+///     escaped = sum of `energy` = sum of `escaped_by_bounce`.
+std::string contradiction(const Measurement& measurement);
+
+}  // namespace asperity::io
