@@ -42,8 +42,8 @@ class Brdf {
     virtual double pdf(Vec3 wi, Vec3 wo) const = 0;
 
     /// Directional albedo: the integral of f cos(theta_o) over wo, per channel. The default
-    /// integrates numerically (relative error below 1e-3 for alpha >= 0.05): E[f cos(theta_o) / pdf]
-    /// over 10946 points.
+    /// integrates numerically (relative error below 1e-3 for alpha >= 0.05): E[f cos(theta_o) /
+    /// pdf] over 10946 points.
     virtual void albedo(Vec3 wi, std::span<double> a) const;
 
     /// True when turning wi and wo together about z never changes f.
