@@ -19,31 +19,48 @@ enum class Projection {
 struct SkyMapSettings {
     ColourMap colour_map = ColourMap::Inferno;
     Scale scale = Scale::Log;
-    double decades = 4;  ///< of the log scale, below the largest value
+    double decades = 4;  ///< of the log scale, below its upper end; 0 < decades <= 30
     Projection projection = Projection::SkyMap;
-    bool legend = true;  ///< title, axes with angles, colour bar with values in 1/sr
+    bool legend = true;  ///< title, axes, colour bar, mirror direction; else the bare picture
     int channel = -1;    ///< -1: the mean of all channels
 };
 
-/// Writes one layer as a PNG of f [1/sr].
+// Common to all pictures. The scale ends at the first 1, 2 or 5 times a power of ten not below the
+// largest f; cells that together carry less than a thousandth of a layer's energy may lie above it
+// (its label says "≥" then). Cells that received nothing are black, darker than any value. Files
+// appear whole or not at all. Throw Error(InputOutput, path); Error(Usage, "decades" | "channel").
+
+/// Writes one layer as a PNG of f [1/sr], about 1000 pixels wide; a sky-map is as wide as the
+/// detector has columns, at least.
 void write_layer_png(const Measurement& measurement, const Layer& layer, const std::string& path,
                      const SkyMapSettings& settings);
 
-/// Writes every layer into `folder` (made if missing) as layer_15_theta_00.png ...; returns the
-/// names written.
+/// Writes every layer into `folder` (made if missing) as layer_15_theta_00.png ..., followed by the
+/// azimuth (_phi_030) when there are several; returns the paths written. Every picture has its own
+/// scale.
 std::vector<std::string> write_layer_pngs(const Measurement& measurement, const std::string& folder,
                                           const SkyMapSettings& settings);
 
-/// Writes all layers on one contact sheet.
+/// Writes all layers on one contact sheet, 1600 pixels wide, with one scale for all, in the order
+/// of the measurement. Throws Error(Usage, path) when there is none.
 void write_layer_sheet(const Measurement& measurement, const std::string& path,
                        const SkyMapSettings& settings);
 
-/// Writes the surface seen from above: shaded by a light, or coloured by facet normal (thesis look).
-enum class SurfaceLook { Shaded, Normals };
+/// Looks of a surface seen from above.
+enum class SurfaceLook {
+    Shaded,   ///< lit from the upper left; slopes scaled to a relief the eye reads, tint by height
+    Normals,  ///< the thesis' look: red = |n_x|, green = |n_up|, blue = |n_y|; flat is pure green
+};
+
+/// Writes the surface seen from above, row 0 on top, about 1024 pixels on its longer side: large
+/// surfaces as means over their facets, small ones facet by facet.
+/// Throws Error(InputOutput, path), Error(InvalidInput, path) for a surface that is not valid.
 void write_surface_png(const Heightfield& surface, const std::string& path, SurfaceLook look);
 
 /// Writes all layers as a multi-part EXR, one part per incidence, docs/formats.md: channels of f in
-/// 1/sr, `stderr.*`, `energy.*` and `bounceK.*`; row 0 = theta_o 0, column 0 = phi_o 0.
+/// 1/sr, `stderr.*`, `energy.*` (fractions of the launched energy; a part sums to its albedo) and
+/// `bounceK.*` (f of order K; the last holds all higher orders); row 0 = theta_o 0, column 0 =
+/// phi_o 0. Throws Error(InputOutput, path); Error(Usage, path) when there is no layer.
 void write_layers_exr(const Measurement& measurement, const std::string& path);
 
 }  // namespace asperity::io
