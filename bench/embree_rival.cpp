@@ -325,7 +325,7 @@ class EmbreeRival : public Rival {
         const float to_y = side(p.y, p.dy, scene_->tile_y, scene_->margin_y);
         const float to_side = std::min(to_x, to_y);
         if (to_top <= to_side && to_top < kInfinity) {
-            tally.add_escape(double{p.dx}, double{p.dy}, count.bounces);
+            tally.add_escape(static_cast<double>(p.dx), static_cast<double>(p.dy), count.bounces);
             return false;
         }
         if (!(to_side < kInfinity) || count.wraps == kMaxWraps) {

@@ -34,9 +34,9 @@ class OwnRival : public Rival {
                 const Launch& at = workload.launch[first + k];
                 rays[k] = {at.i,
                            at.j,
-                           double{at.u},
-                           double{at.v},
-                           double{tracer_.max_height()},
+                           static_cast<double>(at.u),
+                           static_cast<double>(at.v),
+                           static_cast<double>(tracer_.max_height()),
                            workload.direction,
                            -1};
             }
