@@ -30,9 +30,12 @@ class Walk {
           u_(kMirrored ? 1 - ray.u : ray.u),
           v_(ray.v),
           z_(ray.z),
-          du_((kMirrored ? -ray.direction.x : ray.direction.x) / surface.dx),
-          dv_(ray.direction.y / surface.dy),
-          dz_(ray.direction.z) {}
+          du_(flush((kMirrored ? -ray.direction.x : ray.direction.x) / surface.dx)),
+          dv_(flush(ray.direction.y / surface.dy)),
+          dz_(ray.direction.z),
+          per_u_(1 / du_),
+          per_v_(1 / dv_),
+          per_diagonal_(1 / flush(du_ + dv_)) {}
 
     RayEnd run(Ray& ray) {
         bool leaving = ray.facet >= 0;  // the triangle just reflected from is not tested again
@@ -66,12 +69,35 @@ class Walk {
         double t, u, v, clearance;
     };
 
+    /// Directions this close to an axis are along it; their inverse stays finite otherwise.
+    static double flush(double d) { return std::abs(d) < 1e-200 ? 0.0 : d; }
+
     void fetch_corners() {
         const int left = kMirrored ? i_ + 1 : i_, right = kMirrored ? i_ : i_ + 1;
         h00_ = double{s_.at(left, j_)};
         h10_ = double{s_.at(right, j_)};
         h01_ = double{s_.at(left, j_ + 1)};
         h11_ = double{s_.at(right, j_ + 1)};
+    }
+
+    /// The same after a step over one line, whose two corners are known.
+    void fetch_next_corners(bool along_u, bool forward) {
+        const int left = kMirrored ? i_ + 1 : i_, right = kMirrored ? i_ : i_ + 1;
+        if (along_u) {
+            const int column = forward ? right : left;
+            const double below = double{s_.at(column, j_)}, above = double{s_.at(column, j_ + 1)};
+            (forward ? h00_ : h10_) = forward ? h10_ : h00_;
+            (forward ? h01_ : h11_) = forward ? h11_ : h01_;
+            (forward ? h10_ : h00_) = below;
+            (forward ? h11_ : h01_) = above;
+        } else {
+            const int row = forward ? j_ + 1 : j_;
+            const double at_left = double{s_.at(left, row)}, at_right = double{s_.at(right, row)};
+            (forward ? h00_ : h01_) = forward ? h01_ : h00_;
+            (forward ? h10_ : h11_) = forward ? h11_ : h10_;
+            (forward ? h01_ : h00_) = at_left;
+            (forward ? h11_ : h10_) = at_right;
+        }
     }
 
     /// Height of the surface under (u, v), in the triangle the walk is in.
@@ -83,11 +109,10 @@ class Walk {
     /// The way out of the triangle (0,0) (1,0) (0,1).
     Crossing cross_lower() {
         descent_ = dz_ - (h10_ - h00_) * du_ - (h01_ - h00_) * dv_;
-        const double towards_diagonal = du_ + dv_;
-        const double tu = du_ < 0 ? -u_ / du_ : kInfinity;
-        const double tv = dv_ < 0 ? -v_ / dv_ : kInfinity;
+        const double tu = du_ < 0 ? -u_ * per_u_ : kInfinity;
+        const double tv = dv_ < 0 ? -v_ * per_v_ : kInfinity;
         const double td =
-            towards_diagonal > 0 ? std::max(0.0, (1 - u_ - v_) / towards_diagonal) : kInfinity;
+            crosses_diagonal(1) ? std::max(0.0, (1 - u_ - v_) * per_diagonal_) : kInfinity;
         if (tu <= tv && tu <= td && tu < kInfinity) return cross_u(tu, 0, h00_, h01_);
         if (tv <= td && tv < kInfinity) return cross_v(tv, 0, h00_, h10_);
         return cross_diagonal(td);
@@ -96,14 +121,18 @@ class Walk {
     /// The way out of the triangle (1,1) (0,1) (1,0).
     Crossing cross_upper() {
         descent_ = dz_ - (h11_ - h01_) * du_ - (h11_ - h10_) * dv_;
-        const double towards_diagonal = -(du_ + dv_);
-        const double tu = du_ > 0 ? (1 - u_) / du_ : kInfinity;
-        const double tv = dv_ > 0 ? (1 - v_) / dv_ : kInfinity;
+        const double tu = du_ > 0 ? (1 - u_) * per_u_ : kInfinity;
+        const double tv = dv_ > 0 ? (1 - v_) * per_v_ : kInfinity;
         const double td =
-            towards_diagonal > 0 ? std::max(0.0, (u_ + v_ - 1) / towards_diagonal) : kInfinity;
+            crosses_diagonal(-1) ? std::max(0.0, (1 - u_ - v_) * per_diagonal_) : kInfinity;
         if (tu <= tv && tu <= td && tu < kInfinity) return cross_u(tu, 1, h10_, h11_);
         if (tv <= td && tv < kInfinity) return cross_v(tv, 1, h01_, h11_);
         return cross_diagonal(td);
+    }
+
+    /// Whether u + v changes in this sense.
+    bool crosses_diagonal(int sense) const {
+        return std::abs(per_diagonal_) < kInfinity && per_diagonal_ * sense > 0;
     }
 
     Crossing cross_u(double t, double u, double h_below, double h_above) const {
@@ -219,11 +248,11 @@ class Walk {
         const int j0 = j_ / size * size, j1 = std::min(j0 + size, s_.cells_y());
         const int ahead = kMirrored ? i_ - i0 : i1 - 1 - i_;
         const int behind = kMirrored ? i1 - 1 - i_ : i_ - i0;
-        const double tu = du_ > 0   ? (ahead + 1 - u_) / du_
-                          : du_ < 0 ? -(behind + u_) / du_
+        const double tu = du_ > 0   ? (ahead + 1 - u_) * per_u_
+                          : du_ < 0 ? -(behind + u_) * per_u_
                                     : kInfinity;
-        const double tv = dv_ > 0   ? (j1 - j_ - v_) / dv_
-                          : dv_ < 0 ? -(j_ - j0 + v_) / dv_
+        const double tv = dv_ > 0   ? (j1 - j_ - v_) * per_v_
+                          : dv_ < 0 ? -(j_ - j0 + v_) * per_v_
                                     : kInfinity;
         const double t = std::min(tu, tv);
         if (!(t < kInfinity) || z_ + std::min(0.0, dz_) * t < top) return false;
@@ -277,7 +306,8 @@ class Walk {
     const HeightBounds& bounds_;
     int i_, j_;
     double u_, v_, z_;
-    const double du_, dv_, dz_;  // per unit of path: cells, cells, height
+    const double du_, dv_, dz_;                  // per unit of path: cells, cells, height
+    const double per_u_, per_v_, per_diagonal_;  // path per cell in u, in v, in u + v
     bool lower_ = true;
     double h00_ = 0, h10_ = 0, h01_ = 0, h11_ = 0;  // corners; first digit along u
     double clearance_ = 0;                          // where the ray entered the triangle, >= 0
