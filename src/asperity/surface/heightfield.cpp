@@ -7,8 +7,9 @@
 namespace asperity {
 
 Slope facet_slope(const Heightfield& s, int i, int j, Triangle triangle) {
-    const double h00 = double{s.at(i, j)}, h10 = double{s.at(i + 1, j)};
-    const double h01 = double{s.at(i, j + 1)}, h11 = double{s.at(i + 1, j + 1)};
+    const double h00 = static_cast<double>(s.at(i, j)), h10 = static_cast<double>(s.at(i + 1, j));
+    const double h01 = static_cast<double>(s.at(i, j + 1)),
+                 h11 = static_cast<double>(s.at(i + 1, j + 1));
     const bool lower = triangle == Triangle::Lower;
     // The triangle has one edge along x and one along y; the slope is read off those two.
     const bool edge_x_below = lower;
