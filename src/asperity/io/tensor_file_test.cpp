@@ -127,28 +127,27 @@ TEST(TensorFile, RefusesWithOffsetAndReason) {
 
 TEST(TensorFile, RefusesEveryCut) {
     const TemporaryFolder folder;
-    for (std::size_t length = 0; length < golden().size(); ++length) {
-        put(folder / "t.bin", golden().substr(0, length));
+    put(folder / "t.bin", golden());
+    test::with_each_cut(folder / "t.bin", [&](std::uintmax_t length) {
         const auto error = error_of([&] { TensorFile(folder / "t.bin").require_own_layout(); });
         ASSERT_TRUE(error) << length;
         EXPECT_EQ(error->code(), ErrorCode::InvalidInput) << error->what();
-    }
+    });
 }
 
 TEST(TensorFile, DamagedTablesNeverCrash) {
     const TemporaryFolder folder;
-    for (std::size_t place = 0; place < 71; ++place)
-        for (const char value : {'\x00', '\xff', '\x7f', '\x80'}) {
-            put(folder / "t.bin", golden_with(place, std::string(1, value)));
-            const auto error = error_of([&] {
-                const TensorFile file(folder / "t.bin");
-                for (const TensorField& field : file.fields()) {
-                    std::vector<std::byte> bytes(static_cast<std::size_t>(field.bytes));
-                    file.read(field, 0, bytes);
-                }
-            });
-            EXPECT_TRUE(!error || error->code() == ErrorCode::InvalidInput) << error->what();
-        }
+    put(folder / "t.bin", golden());
+    test::with_each_byte_damaged(folder / "t.bin", 71, [&](std::size_t) {
+        const auto error = error_of([&] {
+            const TensorFile file(folder / "t.bin");
+            for (const TensorField& field : file.fields()) {
+                std::vector<std::byte> bytes(static_cast<std::size_t>(field.bytes));
+                file.read(field, 0, bytes);
+            }
+        });
+        EXPECT_TRUE(!error || error->code() == ErrorCode::InvalidInput) << error->what();
+    });
 }
 
 TEST(TensorFile, RefusesFoldersAndMissingFiles) {

@@ -6,10 +6,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 namespace asperity::io::test {
@@ -49,6 +52,39 @@ inline void put(const std::string& path, const std::string& bytes) {
 inline std::string get(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// Calls check(place) with the byte at each of the first `places` of the file set to 00, FF,
+/// 7F and 80 in turn, in place: writing the file anew each time would cost seconds.
+template <typename Check>
+void with_each_byte_damaged(const std::string& path, std::size_t places, Check&& check) {
+    const std::string good = get(path);
+    std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+    const auto set = [&](std::size_t place, char byte) {
+        file.seekp(static_cast<std::streamoff>(place));
+        file.put(byte).flush();
+    };
+    for (std::size_t place = 0; place < std::min(places, good.size()); ++place) {
+        for (const char byte : {'\x00', '\xff', '\x7f', '\x80'}) {
+            set(place, byte);
+            check(place);
+        }
+        set(place, good[place]);
+    }
+}
+
+/// Calls check(length) with the file cut to every length below its own, the longest first.
+template <typename Check>
+void with_each_cut(const std::string& path, Check&& check) {
+    for (std::uintmax_t length = std::filesystem::file_size(path); length-- > 0;) {
+        std::filesystem::resize_file(path, length);
+        check(length);
+    }
+}
+
+/// Whether /dev/full is the device that refuses every write, as it is on a whole system.
+inline bool has_full_device() {
+    return std::filesystem::is_character_file("/dev/full");
 }
 
 /// The Error that `call` throws; nothing when it throws none. Other exceptions pass through.

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfPartType.h>
+#include <asperity/core/error.h>
+#include <asperity/io/atomic_file.h>
+#include <asperity/io/height_files.h>
+#include <asperity/io/parse_number.h>
+#include <asperity/io/read_file.h>
+#include <fmt/format.h>
+
+#include <new>
+
+namespace asperity::io {
+namespace {
+
+// An image of more bytes than this must not be this many times as large as its file.
+constexpr std::uint64_t kTrustedBytes = 64 << 20;
+constexpr std::uint64_t kMaxCompression = 10000;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+    throw Error(ErrorCode::InvalidInput, why, path);
+}
+
+// Whatever OpenEXR throws becomes our error of one line.
+template <typename Call>
+void translating(const std::string& path, ErrorCode code, Call&& call) {
+    try {
+        call();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorCode::OutOfMemory, "too large for the memory there is", path);
+    } catch (const std::exception& error) {
+        std::string why = error.what();
+        for (char& c : why)
+            if (static_cast<unsigned char>(c) < ' ') c = ' ';
+        throw Error(code, "OpenEXR: " + std::string(trimmed(why)), path);
+    }
+}
+
+void check_magic(const InputFile& file) {
+    std::string start(4, ' ');
+    if (file.size() >= start.size()) file.read(0, std::as_writable_bytes(std::span(start)));
+    if (start != "\x76\x2f\x31\x01") refuse(file.path(), "not an OpenEXR file (wrong magic)");
+}
+
+void check_parts(const std::string& path) {
+    const Imf::MultiPartInputFile parts(path.c_str());
+    if (parts.parts() != 1) refuse(path, fmt::format("{} parts, heights need one", parts.parts()));
+    const auto& header = parts.header(0);
+    if (header.hasType() && header.type() != Imf::SCANLINEIMAGE && header.type() != Imf::TILEDIMAGE)
+        refuse(path, "deep images hold no heights");
+}
+
+std::string only_channel(const Imf::Header& header, const std::string& path) {
+    std::string names, name;
+    int count = 0;
+    for (auto it = header.channels().begin(); it != header.channels().end(); ++it, ++count) {
+        name = it.name();
+        names += (names.empty() ? "" : ", ") + name;
+        if (it.channel().type == Imf::UINT)
+            refuse(path, fmt::format("channel {} holds integers, heights need half or float",
+                                     in_quotes(name)));
+        if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
+            refuse(path, fmt::format("channel {} is subsampled", in_quotes(name)));
+    }
+    if (count != 1) refuse(path, fmt::format("{} channels ({}), heights need one", count, names));
+    return name;
+}
+
+Heightfield read_image(const InputFile& file) {
+    const std::string& path = file.path();
+    check_parts(path);
+    Imf::InputFile image(path.c_str());
+    if (!image.isComplete()) refuse(path, "the image is incomplete");
+    const std::string channel = only_channel(image.header(), path);
+
+    const auto box = image.header().dataWindow();
+    const auto nx = static_cast<std::int64_t>(box.max.x) - box.min.x + 1;
+    const auto ny = static_cast<std::int64_t>(box.max.y) - box.min.y + 1;
+    if (nx < 1 || ny < 1) refuse(path, "the data window is empty");
+    check_sides(static_cast<std::uint64_t>(nx), static_cast<std::uint64_t>(ny), path);
+    const std::uint64_t bytes = static_cast<std::uint64_t>(nx * ny) * sizeof(float);
+    if (bytes > kTrustedBytes && bytes / kMaxCompression > file.size())
+        refuse(path,
+               fmt::format("{} x {} samples do not fit a file of {} bytes", nx, ny, file.size()));
+    Heightfield surface =
+        empty_patch(static_cast<std::uint64_t>(nx), static_cast<std::uint64_t>(ny), path);
+
+    Imf::FrameBuffer frame;
+    const auto row_bytes = static_cast<std::size_t>(nx) * sizeof(float);
+    frame.insert(channel, Imf::Slice::Make(Imf::FLOAT, surface.heights.data(), box, sizeof(float),
+                                           row_bytes));
+    image.setFrameBuffer(frame);
+    image.readPixels(box.min.y, box.max.y);
+    return surface;
+}
+
+}  // namespace
+
+Heightfield read_exr_heights(const std::string& path) {
+    const InputFile file(path);
+    check_magic(file);
+    Heightfield surface;
+    translating(path, ErrorCode::InvalidInput, [&] { surface = read_image(file); });
+    return surface;
+}
+
+void write_exr_heights(const Heightfield& surface, const std::string& path) {
+    AtomicFile file(path);
+    translating(path, ErrorCode::InputOutput, [&] {
+        Imf::Header header(surface.nx, surface.ny);
+        header.compression() = Imf::ZIP_COMPRESSION;
+        header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+        Imf::OutputFile image(file.temporary_path().c_str(), header);
+        Imf::FrameBuffer frame;
+        const auto row_bytes = static_cast<std::size_t>(surface.nx) * sizeof(float);
+        frame.insert("Y", Imf::Slice::Make(Imf::FLOAT, surface.heights.data(), header.dataWindow(),
+                                           sizeof(float), row_bytes));
+        image.setFrameBuffer(frame);
+        image.writePixels(surface.ny);
+    });
+    file.commit();
+}
+
+}  // namespace asperity::io

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/core/error.h>
+#include <asperity/io/surface_files.h>
+#include <asperity/io/tile_heights.h>
+#include <asperity/surface/make_surface.h>
+#include <fmt/format.h>
+
+namespace asperity::io {
+namespace {
+
+// One of the two given alone counts for both.
+void apply_cell_size(Heightfield& surface, const SurfaceSettings& settings) {
+    if (settings.cell_x || settings.cell_y) {
+        surface.dx = settings.cell_x ? *settings.cell_x : *settings.cell_y;
+        surface.dy = settings.cell_y ? *settings.cell_y : *settings.cell_x;
+    }
+}
+
+Heightfield load_file(const SurfaceSettings& settings) {
+    if (settings.file.empty()) throw Error(ErrorCode::Usage, "the file name is empty", "surface");
+    Heightfield surface = read_heights(settings.file);
+    apply_cell_size(surface, settings);
+    for (float& h : surface.heights) h = static_cast<float>(double{h} * settings.height_scale);
+    if (settings.diagonal == Diagonal::Main) surface.diagonal = Diagonal::Main;
+
+    // A file that says it is periodic has nothing to mirror.
+    const bool finite = settings.tiling == Tiling::Finite || settings.boundary == Boundary::Finite;
+    if (finite)
+        surface.boundary = Boundary::Finite;
+    else if (settings.tiling == Tiling::Periodic)
+        surface.boundary = Boundary::Periodic;
+    else if (surface.boundary == Boundary::Finite)
+        surface = mirrored(surface);
+    validate(surface, settings.file);
+    return surface;
+}
+
+}  // namespace
+
+Heightfield load_surface(const SurfaceSettings& settings, Run& run) {
+    return settings.kind == SurfaceKind::File ? load_file(settings) : make_surface(settings, run);
+}
+
+}  // namespace asperity::io
