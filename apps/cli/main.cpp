@@ -68,13 +68,27 @@ void check_leftovers(const CLI::App& program, const std::vector<Verb>& verbs) {
     }
     std::vector<std::string> names;
     for (const CLI::Option* known : chosen[0]->get_options()) {
-        for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
+        for (const std::string& name : known->get_lnames()) names.push_back(name);
     }
+    if (!is_option(word)) {
+        throw Error(ErrorCode::Usage, fmt::format("{} does not know what to do with '{}'",
+                                                  chosen[0]->get_name(), word));
+    }
+    const std::string typed = word.substr(0, word.find('='));
+    const std::string meant =
+        nearest(typed.substr(std::min(typed.find_first_not_of('-'), typed.size())), names);
     throw Error(ErrorCode::Usage,
-                is_option(word) ? fmt::format("{} has no option {}{}", chosen[0]->get_name(), word,
-                                              did_you_mean(word.substr(0, word.find('=')), names))
-                                : fmt::format("{} does not know what to do with '{}'",
-                                              chosen[0]->get_name(), word));
+                fmt::format("{} has no option {}{}", chosen[0]->get_name(), typed,
+                            meant.empty() ? "" : "; did you mean --" + meant + "?"));
+}
+
+/// What the parser says, in our words.
+std::string in_words(const CLI::ParseError& error) {
+    const std::string text = error.what();
+    if (error.get_name() == "ArgumentMismatch") {
+        return text.substr(0, text.find(": ")) + " needs a value";
+    }
+    return text;
 }
 
 int run_program(int argc, char** argv) {
@@ -99,7 +113,7 @@ int run_program(int argc, char** argv) {
         write_out((chosen.empty() ? &program : chosen[0])->help());
         return 0;
     } catch (const CLI::ParseError& error) {
-        throw Error(ErrorCode::Usage, error.what());
+        throw Error(ErrorCode::Usage, in_words(error));
     }
     check_leftovers(program, verbs);
     const auto chosen = std::find_if(verbs.begin(), verbs.end(),

@@ -62,7 +62,7 @@ void ProgressBar::show(const Progress& progress) {
     const std::scoped_lock lock(mutex_);
     if (progress.total == 0) return;
     if (terminal_) {
-        write_err("\r" + line_of(progress) + "\x1b[K");
+        write_err(fmt::format("\r{}\x1b[K", line_of(progress)));
         drawn_ = true;
         return;
     }

@@ -75,7 +75,7 @@ class LayerTable {
         }
         heads.insert(heads.end(), {"1 bounce", "2 bounces", "3+", "absorbed", "truncated"});
         if (edge_) heads.push_back("edge loss");
-        if (comparison_) heads.push_back("L1");
+        if (comparison_) heads.insert(heads.end(), {"L1", "noise"});
         return heads;
     }
 
@@ -95,6 +95,7 @@ class LayerTable {
         if (comparison_) {
             const LayerComparison* found = comparison_of(layer, *comparison_);
             cells.push_back(found ? fmt::format("{:.4f}", found->l1) : "-");
+            cells.push_back(found ? fmt::format("{:.4f}", found->l1_noise) : "-");
         }
         return cells;
     }

@@ -25,8 +25,8 @@ std::string kind_name(const SurfaceSettings& settings);
 /// Whether the surface is a patch through whose side rays can be lost.
 bool has_edges(const SurfaceSettings& settings);
 
-/// The table of a measurement, a row per layer. `comparison`, when given, adds the L1 column; its
-/// rows are found by incident direction.
+/// The table of a measurement, a row per layer. `comparison`, when given, adds the columns of L1
+/// and its noise; its rows are found by incident direction.
 std::string layer_table(const Measurement& measurement,
                         const std::optional<Comparison>& comparison);
 

@@ -134,7 +134,10 @@ class SimulateVerb {
             comparison = compare(m, *parse_brdf_spec(reference), run.threads());
         }
         say(layer_table(m, comparison));
-        if (comparison) say("L1: distance to " + reference + "\n");
+        if (comparison) {
+            say("L1: distance to " + reference +
+                "; noise: what it would be from the errors alone\n");
+        }
         say(closing_lines(m));
         if (written) {
             say(fmt::format("wrote {}{}\n", text_of(output_), m.stopped ? " (partial)" : ""));

@@ -1,0 +1,362 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The spellings other tools call, end to end on tiny settings."""
+import json
+import os
+import struct
+import subprocess
+import sys
+import zlib
+
+from program import PROGRAM, SMALL, ProgramTest, main, run
+
+LAYER_KEYS = {"theta_deg", "phi_deg", "launched", "albedo", "albedo_stderr", "albedo_by_bounce",
+              "absorbed", "truncated", "mean_bounces"}
+
+
+def png_size(path):
+    """Width and height of a PNG whose chunks are whole."""
+    with open(path, "rb") as file:
+        data = file.read()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n", path
+    place, size = 8, None
+    while place < len(data):
+        length, kind = struct.unpack(">I4s", data[place:place + 8])
+        body = data[place + 4:place + 8 + length]
+        assert zlib.crc32(body) == struct.unpack(">I", data[place + 8 + length:][:4])[0], path
+        if kind == b"IHDR":
+            size = struct.unpack(">II", body[4:12])
+        place += 12 + length
+    return size
+
+
+class Surface(ProgramTest):
+    def test_made_saved_drawn_read(self):
+        self.passes("surface", "thesis", "--size", 32, "-o", "s.gsf", "--png", "s.png")
+        self.assert_files("s.gsf", "s.png")
+        self.assertTrue(all(side > 0 for side in png_size("s.png")))
+        made = self.json_of("surface", "thesis", "--size", 32, "--stats")
+        read = self.json_of("surface", "s.gsf", "--tiling", "periodic", "--stats")
+        self.assertEqual(read["realised"], made["realised"])
+        self.assertEqual((read["nx"], read["ny"]), (32, 32))
+        self.assertEqual(made["asked"], {"roughness": 0.2})
+
+    def test_every_kind(self):
+        for kind in ("thesis", "gaussian", "ggx", "flat", "tilted", "vgroove", "sawtooth",
+                     "pyramids", "sinusoid", "eggcrate"):
+            with self.subTest(kind):
+                self.assertEqual(self.json_of("surface", kind, "--size", 64)["kind"], kind)
+
+    def test_known_figures(self):
+        groove = self.json_of("surface", "vgroove:tilt=45,size=32")["realised"]
+        self.assertAlmostEqual(groove["rms_slope_x"], 1, 6)
+        self.assertAlmostEqual(groove["area_ratio"], 2 ** 0.5, 6)
+        rough = self.json_of("surface", "gaussian", "--alpha", 0.25, "--size", 128)
+        self.assertAlmostEqual(rough["realised"]["rms_gradient"], 0.25, 4)
+        self.assertEqual(rough["asked"], {"alpha_x": 0.25, "alpha_y": 0.25})
+        self.assertLess(rough["slope_distance"]["beckmann"], 0.05)
+        self.assertGreater(rough["slope_distance"]["ggx"], 0.1)
+
+    def test_formats_keep_the_heights(self):
+        self.passes("surface", "gaussian", "--size", 32, "-o", "a.gsf")
+        wanted = self.json_of("surface", "a.gsf", "--tiling", "periodic")["realised"]
+        for name in ("a.exr", "a.txt"):
+            with self.subTest(name):
+                self.passes("surface", "a.gsf", "--tiling", "periodic", "-o", name)
+                got = self.json_of("surface", name, "--tiling", "periodic")["realised"]
+                self.assertAlmostEqual(got["rms_height"], wanted["rms_height"], 6)
+                self.assertAlmostEqual(got["skewness"], wanted["skewness"], 6)
+
+    def test_default_tiling_is_told(self):
+        self.passes("surface", "thesis", "--size", 16, "-o", "a.gsf")
+        self.assertIn("the default of --tiling", self.passes("surface", "a.gsf"))
+
+    def test_looks(self):
+        for look in ("shaded", "normals"):
+            self.passes("surface", "eggcrate", "--size", 32, "--png", f"{look}.png", "--look", look)
+        self.assertNotEqual(open("shaded.png", "rb").read(), open("normals.png", "rb").read())
+
+
+class Simulate(ProgramTest):
+    def test_table_and_file(self):
+        text = self.passes("simulate", "--surface", "gaussian", *SMALL, "-o", "r.asperity")
+        self.assert_files("r.asperity")
+        for words in ("alpha 0.3 asked", "albedo", "1 bounce", "2 bounces", "3+", "absorbed",
+                      "truncated", "L1", "cook-torrance:roughness=0.54", "rays/s",
+                      "wrote r.asperity", "checksum"):
+            self.assertIn(words, text)
+        self.assertEqual(sum("°" in line for line in text.splitlines()), 15)
+        self.assertNotIn("edge loss", text)
+
+    def test_json_keys(self):
+        self.passes("simulate", "--surface", "thesis", *SMALL, "--bounces", 3, "--fresnel",
+                    "schlick", "--f0", "0.9,0.5,0.1", "-o", "r.asperity")
+        info = self.json_of("info", "r.asperity")
+        self.assertLessEqual({"launched_total", "rays_per_second", "threads", "surface", "layers"},
+                             set(info))
+        self.assertEqual(info["launched_total"], 15 * 2000)
+        self.assertGreater(info["rays_per_second"], 0)
+        self.assertGreater(info["surface"]["rms_height"], 0)
+        self.assertEqual([round(layer["theta_deg"]) for layer in info["layers"]],
+                         list(range(0, 90, 6)))
+        for layer in info["layers"]:
+            self.assertLessEqual(LAYER_KEYS, set(layer))
+            self.assertEqual(layer["phi_deg"], 0)
+            self.assertEqual(len(layer["albedo"]), 3)
+            self.assertEqual([len(row) for row in layer["albedo_by_bounce"]], [3, 3, 3])
+            exact = layer["exact"]
+            for c in range(3):
+                self.assertAlmostEqual(sum(layer["albedo_by_bounce"][c]), layer["albedo"][c], 12)
+                self.assertAlmostEqual(
+                    layer["albedo"][c] + layer["absorbed"][c] + layer["truncated"][c], 1, 12)
+                self.assertEqual(sum(int(exact[part][c]) for part in
+                                     ("escaped", "absorbed", "truncated", "edge")),
+                                 int(exact["launched"]))
+            self.assertGreaterEqual(layer["mean_bounces"], 1)
+            self.assertLessEqual(layer["mean_bounces"], 3)
+
+    def test_json_alone_on_stdout(self):
+        done = run("simulate", "--surface", "flat", *SMALL, "--json")
+        self.assertEqual(json.loads(done.stdout)["file"], None)
+        self.assertIn("surface: flat", done.stderr)
+        done = run("simulate", "--surface", "flat", *SMALL, "--json", "--quiet", "-o", "r.asperity")
+        self.assertEqual(json.loads(done.stdout)["file"], "r.asperity")
+        self.assertEqual(done.stderr, "")
+
+    def test_quiet(self):
+        done = run("simulate", "--surface", "flat", *SMALL, "--quiet", "-o", "r.asperity")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        self.assert_files("r.asperity")
+
+    def test_few_lines_on_a_stderr_that_is_no_terminal(self):
+        done = run("simulate", "--surface", "gaussian", *SMALL)
+        self.assertLessEqual(len(done.stderr.splitlines()), 4)
+        self.assertNotIn("\r", done.stderr)
+
+    def test_isotropic_has_no_azimuth(self):
+        info = self.json_of("simulate", "--surface", "gaussian", *SMALL, "--isotropic",
+                            "--theta", "30,60")
+        self.assertEqual([layer["phi_deg"] for layer in info["layers"]], [None, None])
+
+    def test_fixed_angles(self):
+        info = self.json_of("simulate", "--surface", "flat", *SMALL, "--theta", "0,45",
+                            "--phi", "10,20")
+        angles = [(round(layer["theta_deg"], 9), round(layer["phi_deg"], 9))
+                  for layer in info["layers"]]
+        self.assertEqual(sorted(angles), [(0, 10), (0, 20), (45, 10), (45, 20)])
+
+    def test_finite_patch_shows_edge_loss(self):
+        text = self.passes("simulate", "--surface", "thesis", *SMALL, "--boundary", "finite")
+        self.assertIn("edge loss", text)
+
+    def test_until(self):
+        # The same limit in both spellings, and it is kept.
+        options = ("simulate", "--surface", "gaussian", "--size", 64, "--theta", 30,
+                   "--resolution", 4, "--fresnel", "schlick", "--f0", 0.5, "--rays", 256)
+        percent = self.json_of(*options, "--until", "5%")
+        share = self.json_of(*options, "--until", "0.05")
+        self.assertEqual(percent["checksum"], share["checksum"])
+        layer = percent["layers"][0]
+        self.assertGreater(layer["launched"], 256)
+        self.assertLess(layer["albedo_stderr"][0] / layer["albedo"][0], 0.05)
+
+    def test_reference(self):
+        text = self.passes("simulate", "--surface", "flat", *SMALL, "--theta", 0)
+        self.assertNotIn("L1", text)
+        text = self.passes("simulate", "--surface", "flat", *SMALL, "--theta", 0, "--reference",
+                           "lambert:albedo=1")
+        self.assertIn("lambert", text)
+        text = self.passes("simulate", "--surface", "ggx", *SMALL, "--theta", 0, "--reference",
+                           "none")
+        self.assertNotIn("L1", text)
+
+    def test_one_checksum_for_any_number_of_threads(self):
+        sums = {self.json_of("simulate", "--surface", "gaussian", *SMALL, "--threads", threads)
+                ["checksum"] for threads in (1, 2, 3, 7)}
+        self.assertEqual(len(sums), 1)
+
+    def test_seeds_matter(self):
+        sums = {self.json_of("simulate", *SMALL, option, 2)["checksum"]
+                for option in ("--seed", "--surface-seed")}
+        sums.add(self.json_of("simulate", *SMALL)["checksum"])
+        self.assertEqual(len(sums), 3)
+
+    def test_surface_from_a_file(self):
+        self.passes("surface", "thesis", "--size", 64, "-o", "s.gsf")
+        made = self.json_of("simulate", "--surface", "thesis", *SMALL)
+        text = self.passes("simulate", "--surface", "s.gsf", *SMALL, "--tiling", "periodic",
+                           "-o", "r.asperity")
+        self.assertIn("s.gsf", text)
+        read = self.json_of("info", "r.asperity")
+        self.assertEqual([layer["exact"] for layer in read["layers"]],
+                         [layer["exact"] for layer in made["layers"]])
+
+
+class Config(ProgramTest):
+    def test_round_trip_gives_the_same_checksum(self):
+        self.passes("simulate", "--surface", "ggx", *SMALL, "--alpha", "0.3,0.2", "--theta",
+                    "10,50", "--phi", 33, "--fresnel", "conductor", "--material", "Au",
+                    "--detector", "equal-area", "--seed", 9, "-o", "a.asperity")
+        with open("run.txt", "w", encoding="utf-8") as file:
+            file.write(self.passes("info", "a.asperity", "--config"))
+        self.passes("simulate", "--config", "run.txt", "-o", "b.asperity")
+        self.assertEqual(self.json_of("info", "a.asperity")["checksum"],
+                         self.json_of("info", "b.asperity")["checksum"])
+
+    def test_command_line_wins(self):
+        with open("run.txt", "w", encoding="utf-8") as file:
+            file.write("# a run\nrays = 3000\nsurface = flat\nsize = 64\ntheta = 10,20,30\n"
+                       "quiet = true\nresolution = 16\n")
+        info = self.json_of("simulate", "--config", "run.txt", "--rays", 4000)
+        self.assertEqual(info["launched_total"], 3 * 4000)
+        self.assertEqual(info["experiment"]["surface"], "flat")
+        info = self.json_of("simulate", "--config", "run.txt", "--layers", 2)
+        self.assertEqual(len(info["layers"]), 2)
+        self.assertEqual(run("simulate", "--config", "run.txt").stdout, "")
+
+    def test_errors_name_file_and_line(self):
+        for line, words in (("raiz = 3", "did you mean rays?"), ("rays = many", "rays"),
+                            ("rays", "key = value"), ("quiet = perhaps", "quiet"),
+                            ("config = run.txt", "config")):
+            with self.subTest(line), open("run.txt", "w", encoding="utf-8") as file:
+                file.write(f"# first\nsize = 64\n{line}\n")
+                file.flush()
+                self.assertIn(words, self.fails(3, "simulate", "--config", "run.txt",
+                                                saying="run.txt:3"))
+
+
+class Compare(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.passes("simulate", "--surface", "gaussian", *SMALL, "-o", "a.asperity")
+        self.passes("simulate", "--surface", "gaussian", *SMALL, "--seed", 2, "-o", "b.asperity")
+
+    def test_with_itself(self):
+        same = self.json_of("compare", "a.asperity", "a.asperity")
+        self.assertEqual((same["mean_l1"], same["max_albedo_difference"]), (0, 0))
+        self.assertEqual(len(same["layers"]), 15)
+
+    def test_measurements(self):
+        seeds = self.json_of("compare", "a.asperity", "b.asperity")
+        self.assertGreater(seeds["mean_l1"], 0)
+        self.assertLess(seeds["mean_l1"], 0.5)
+
+    def test_model_on_either_side(self):
+        model = "beckmann:alpha=0.3"
+        right = self.json_of("compare", "a.asperity", model)
+        left = self.json_of("compare", model, "a.asperity")
+        self.assertEqual((right["a"], right["b"]), ("a.asperity", model))
+        self.assertEqual((left["a"], left["b"]), (model, "a.asperity"))
+        for r, l in zip(right["layers"], left["layers"]):
+            self.assertEqual(r["l1"], l["l1"])
+            self.assertEqual(r["albedo_difference"], -l["albedo_difference"])
+            self.assertEqual(r["albedo_a"], l["albedo_b"])
+        # It is a Beckmann surface: nearer to it than to a Lambert one.
+        lambert = self.json_of("compare", "a.asperity", "lambert:albedo=1")
+        self.assertLess(right["mean_l1"], lambert["mean_l1"])
+
+    def test_two_models(self):
+        same = self.json_of("compare", "lambert:albedo=0.5", "lambert:albedo=0.5", "--theta",
+                            "0,30", "--resolution", 32)
+        self.assertEqual(same["mean_l1"], 0)
+        self.assertAlmostEqual(same["layers"][0]["albedo_a"], 0.5, 6)
+        self.assertEqual([round(layer["theta_deg"]) for layer in same["layers"]], [0, 30])
+        # Two Lambert models of albedo 0.5 and 0.3 differ by 0.2 everywhere.
+        half = self.json_of("compare", "lambert:albedo=0.5", "lambert:albedo=0.3", "--layers", 3,
+                            "--resolution", 32)
+        self.assertAlmostEqual(half["mean_l1"], 0.2, 6)
+
+    def test_table(self):
+        text = self.passes("compare", "a.asperity", "ggx:alpha=0.3")
+        self.assertIn("mean L1", text)
+        self.assertIn("RMS [1/sr]", text)
+
+    def test_refusals(self):
+        self.fails(2, "compare", "a.asperity", saying="two")
+        self.fails(2, "compare", "a.asperity", "b.asperity", "--layers", 3, saying="two models")
+        self.fails(4, "compare", "a.asperity", "nosuch", saying="nosuch")
+        self.fails(2, "compare", "a.asperity", "ggx:alpha=often", saying="alpha")
+
+
+class Export(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.passes("simulate", "--surface", "gaussian", *SMALL, "--layers", 3, "--fresnel",
+                    "conductor", "--material", "Cu", "-o", "r.asperity")
+
+    def test_exr(self):
+        self.passes("export", "r.asperity", "-o", "layers.exr")
+        self.assert_files("r.asperity", "layers.exr")
+        with open("layers.exr", "rb") as file:
+            self.assertEqual(file.read(4), b"\x76\x2f\x31\x01")
+
+    def test_folder(self):
+        self.passes("export", "r.asperity", "-o", "layers/")
+        names = os.listdir("layers")
+        self.assertEqual(len(names), 4)
+        self.assertIn("sheet.png", names)
+        for name in names:
+            self.assertTrue(all(side > 0 for side in png_size(f"layers/{name}")))
+
+    def test_looks(self):
+        pictures = set()
+        for k, options in enumerate(([], ["--colour-map", "viridis"], ["--color-map", "grey"],
+                                     ["--scale", "linear"], ["--projection", "disk"],
+                                     ["--decades", 2], ["--channel", "R"], ["--channel", 2])):
+            self.passes("export", "r.asperity", "-o", f"{k}.png", *options)
+            with open(f"{k}.png", "rb") as file:
+                pictures.add(file.read())
+        self.assertEqual(len(pictures), 8)
+
+    def test_refusals(self):
+        self.fails(2, "export", "r.asperity", saying="-o")
+        self.fails(2, "export", "-o", "x.exr", saying="result")
+        for options in (["-o", "x.jpg"], ["-o", "x.png", "--colour-map", "pink"],
+                        ["-o", "x.png", "--channel", "U"], ["-o", "x.png", "--channel", 3],
+                        ["-o", "x.png", "--scale", "cubic"], ["-o", "x.png", "--decades", 0]):
+            self.fails(2, "export", "r.asperity", *options)
+        self.fails(4, "export", "r.asperity", "-o", "no/such/layers/")
+        self.fails(4, "export", "r.asperity", "-o", "r.asperity/")
+        self.assert_files("r.asperity")
+
+
+class Selftest(ProgramTest):
+    def test_all_pass(self):
+        text = self.passes("selftest")
+        lines = text.splitlines()
+        self.assertIn("Texture layer 15, 32 x 32 ... PASSED", lines)
+        self.assertEqual(sum(line.startswith("Texture layer") for line in lines), 75)
+        self.assertTrue(all(line.endswith("PASSED") for line in lines[:-1]))
+        checks = len(lines) - 1
+        self.assertEqual(lines[-1], f"{checks} of {checks} passed")
+
+
+class Streams(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.passes("simulate", "--surface", "flat", *SMALL, "-o", "r.asperity")
+
+    def test_full_disk(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = run("info", "r.asperity", stdout=full)
+        self.assertEqual(done.returncode, 4)
+        self.assertEqual(done.stderr.count("\n"), 1)
+
+    def test_closed_output(self):
+        done = subprocess.run(f"'{PROGRAM}' info r.asperity >&-", shell=True, text=True,
+                              stderr=subprocess.PIPE, check=False)
+        self.assertEqual(done.returncode, 4)
+        self.assertIn("standard output", done.stderr)
+        # The number of the closed stream must not go to the output file.
+        subprocess.run(f"'{PROGRAM}' simulate --quiet --surface flat --size 64 -o b.asperity >&-",
+                       shell=True, check=True)
+        self.passes("info", "b.asperity")
+
+    def test_reader_that_goes_away(self):
+        done = subprocess.run(f"'{PROGRAM}' selftest --threads 1 | head -n 1", shell=True, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+        self.assertEqual(done.stderr, "")
+        self.assertIn("PASSED", done.stdout)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
