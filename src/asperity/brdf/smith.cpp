@@ -49,8 +49,10 @@ double sample_visible_beckmann_slope(double sin_theta, double cos_theta, double 
         const double slope = 2 / kSqrtPi * std::exp(-x * x) * (cos_theta - x * sin_theta);
         double next = x - error / slope;
         if (!(next > low && next < high)) next = 0.5 * (low + high);
-        if (std::abs(next - x) < 1e-14) break;
+        // Newton's error is about the square of its last step.
+        const bool done = std::abs(next - x) < 1e-9;
         x = next;
+        if (done) break;
     }
     return x;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/brdf/lambert.h>
+#include <asperity/brdf/lattice.h>
 #include <asperity/brdf/layer_table.h>
 #include <asperity/brdf/tabulated.h>
 #include <asperity/core/directions.h>
@@ -178,10 +179,12 @@ void TabulatedBrdf::read_layers(const Measurement& measurement) {
 /// The blend of two lobes keeps neither's energy exactly. At incident directions close enough
 /// together, find by how much it misses, while the corrections are still empty.
 void TabulatedBrdf::normalise() {
-    std::vector<double> theta_nodes = refine(thetas_, 0, 0.5 * kPi, radians(1.5));
+    // With a second dimension to cover, coarser steps keep the cost of it within seconds.
+    const FibonacciLattice lattice = relative_ ? kMediumLattice : kCoarseLattice;
+    std::vector<double> theta_nodes = refine(thetas_, 0, 0.5 * kPi, radians(relative_ ? 1.5 : 3));
     std::vector<double> phi_nodes = phis_;
     if (!relative_) {
-        phi_nodes = refine(phis_, phis_.front(), phis_.front() + 2 * kPi, radians(15));
+        phi_nodes = refine(phis_, phis_.front(), phis_.front() + 2 * kPi, radians(22.5));
         phi_nodes.pop_back();  // the first again
         for (double& phi : phi_nodes) phi = positive_azimuth(phi);
         std::sort(phi_nodes.begin(), phi_nodes.end());
@@ -196,7 +199,7 @@ void TabulatedBrdf::normalise() {
         const Vec3 wi = from_spherical(theta, phi_nodes[k % phi_nodes.size()]);
         std::vector<double> wanted(channels), present(channels);
         albedo(wi, wanted);
-        Brdf::albedo(wi, present);
+        albedo_by_sampling(*this, wi, lattice, present);
         for (std::size_t c = 0; c < channels; ++c)
             if (present[c] > 0) corrections[k * channels + c] = wanted[c] / present[c];
     });
