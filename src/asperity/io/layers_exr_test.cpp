@@ -132,11 +132,11 @@ TEST(LayersExr, RowsArePolarAnglesColumnsAzimuths) {
     // Projected solid angle: (sin^2 45 - sin^2 22.5) / 2 * 2 pi / 8 = 0.353553 / 2 * 0.785398.
     const double f_lit = 0.25 / (0.353553391 / 2 * 0.785398163);
     for (std::size_t k = 0; k < f.size(); ++k) {
-        EXPECT_NEAR(double{f[k]}, k == lit ? f_lit : 0, 1e-6);
-        EXPECT_NEAR(double{energy[k]}, k == lit ? 0.25 : 0, 1e-9);
+        EXPECT_NEAR(static_cast<double>(f[k]), k == lit ? f_lit : 0, 1e-6);
+        EXPECT_NEAR(static_cast<double>(energy[k]), k == lit ? 0.25 : 0, 1e-9);
     }
-    EXPECT_NEAR(double{plane(file, 0, "stderr.Y")[lit]}, f_lit / 2, 1e-6);
-    EXPECT_NEAR(double{plane(file, 0, "bounce2.Y")[lit]}, f_lit, 1e-6);
+    EXPECT_NEAR(static_cast<double>(plane(file, 0, "stderr.Y")[lit]), f_lit / 2, 1e-6);
+    EXPECT_NEAR(static_cast<double>(plane(file, 0, "bounce2.Y")[lit]), f_lit, 1e-6);
     EXPECT_EQ(plane(file, 0, "bounce1.Y")[lit], 0.0F);
 }
 

@@ -39,9 +39,10 @@ class Shading {
   public:
     explicit Shading(const Heightfield& surface) {
         double sum = 0, squares = 0;
-        for (const float h : surface.heights) sum += double{h};
+        for (const float h : surface.heights) sum += static_cast<double>(h);
         mean_ = sum / static_cast<double>(surface.heights.size());
-        for (const float h : surface.heights) squares += (double{h} - mean_) * (double{h} - mean_);
+        for (const float h : surface.heights)
+            squares += (static_cast<double>(h) - mean_) * (static_cast<double>(h) - mean_);
         spread_ = std::sqrt(squares / static_cast<double>(surface.heights.size()));
         relief_ = relief_of(surface);
     }
@@ -143,7 +144,8 @@ void write_surface_png(const Heightfield& surface, const std::string& path, Surf
     }
     const Shading shading(surface);
     const auto colour = [&](const Heightfield& s, int i, int j, Triangle t) {
-        const double middle = 0.5 * (double{s.at(i + 1, j)} + double{s.at(i, j + 1)});
+        const double middle =
+            0.5 * (static_cast<double>(s.at(i + 1, j)) + static_cast<double>(s.at(i, j + 1)));
         return shading.colour(facet_slope(s, i, j, t), middle);
     };
     write_png(draw(surface, colour), path);
