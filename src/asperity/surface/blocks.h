@@ -28,6 +28,20 @@ void for_blocks(int count, int per_block, const Run& run, const Body& body) {
     });
 }
 
+/// Grows `values` to `count` zeros, a part at a time: to fault in gigabytes of memory takes
+/// seconds.
+///
+/// Throws Error(Stopped) between parts, std::bad_alloc when there is not enough.
+template <class Value>
+void allocate(std::vector<Value>& values, std::size_t count, const Run& run) {
+    constexpr std::size_t kPart = std::size_t{1} << 22;
+    values.reserve(count);
+    while (values.size() < count) {
+        throw_if_stopped(run);
+        values.resize(std::min(count, values.size() + kPart));
+    }
+}
+
 /// Rows summed into one part of a sum: fixed, so that rounding does not depend on the threads.
 inline constexpr int kRowsPerSum = 16;
 

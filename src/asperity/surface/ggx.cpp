@@ -199,7 +199,8 @@ void integrate(const Heightfield& surface, std::vector<float>& divergence, Run& 
 
 void impose_slope_law(Heightfield& surface, const SlopeLaw& law, int rounds, Run& run) {
     const Boundary boundary = std::exchange(surface.boundary, Boundary::Periodic);
-    std::vector<float> next(surface.heights.size());
+    std::vector<float> next;
+    allocate(next, surface.heights.size(), run);
     for (int round = 0; round < rounds; ++round) {
         const SlopeRanks ranks = rank_slopes(surface, law, run);
         move_to_ranks(surface, law, ranks, next, run);

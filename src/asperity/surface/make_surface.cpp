@@ -144,9 +144,8 @@ Heightfield make_checked(const SurfaceSettings& settings, Run& run) {
     surface.isotropic = is_isotropic(settings);
     surface.name = name_of(settings);
     const auto size = static_cast<std::size_t>(settings.size);
-    surface.heights.resize(size * size);
-
     run.begin("surface", steps(settings));
+    allocate(surface.heights, size * size, run);
     fill(surface, settings, run);
     surface.dx = cell.x;
     surface.dy = cell.y;
