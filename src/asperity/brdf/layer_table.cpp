@@ -174,7 +174,7 @@ void LayerTable::eval(Vec3 wo, std::span<double> f) const {
     for (std::size_t channel = 0; channel < channels_; ++channel) {
         double sum = 0;
         for (std::size_t k = 0; k < blend.cell.size(); ++k)
-            sum += blend.weight[k] * double{f_[blend.cell[k] * channels_ + channel]};
+            sum += blend.weight[k] * static_cast<double>(f_[blend.cell[k] * channels_ + channel]);
         f[channel] = sum;
     }
 }
