@@ -84,9 +84,9 @@ constexpr OptionInfo kOptions[] = {
     {"bounces", "B", kRun, "reflections a ray may make; what still travels then is truncated"},
     {"jitter", "J", kRun, "rays per surface cell and layer (the thesis' Camera Jitter)"},
     {"rays", "N", kRun, "rays per layer, in place of --jitter", "jitter x cells"},
-    {"until", "P", kRun,
-     "go on until the relative standard error of the albedo, and of the cells with 90 % of the "
-     "energy, is below P: 1% or 0.01",
+    {"until", "P[,Q]", kRun,
+     "go on until the relative standard error of the albedo is below P, and that of the cells with "
+     "90 % of the energy below Q (P if not given): 1% or 0.01",
      "one pass"},
     {"max-rays", "N", kRun, "with --until: no more rays per layer than this",
      "256 x the first estimate"},
@@ -222,7 +222,8 @@ Experiment ExperimentOptions::read(const std::string& spec) {
     for (const auto& [key, option] : options_) {
         if (option->count() == 0) continue;
         const std::string value = text_of(option);
-        if (value.empty()) throw Error(ErrorCode::Usage, "the value is empty", key);
+        if (value.find_first_not_of(" \t") == value.npos)
+            throw Error(ErrorCode::Usage, "the value is empty", key);
         io::apply_setting(experiment, key, value);
     }
     return experiment;

@@ -7,6 +7,7 @@
 
 #include <cctype>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
@@ -17,6 +18,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Tries what will be done in the end: to make a file there.
+void check_writable(const std::string& folder, const std::string& path) {
+    std::string name = folder + "/.asperity-XXXXXX";
+    const int file = mkstemp(name.data());
+    if (file < 0) {
+        throw Error(ErrorCode::InputOutput,
+                    "cannot write into folder " + folder + ": " + std::strerror(errno), path);
+    }
+    close(file);
+    unlink(name.c_str());
+}
+
 void check_parent_folder(const std::string& path) {
     const fs::path parent = fs::path(path).parent_path();
     const std::string folder = parent.empty() ? "." : parent.string();
@@ -24,10 +37,7 @@ void check_parent_folder(const std::string& path) {
     if (!fs::is_directory(folder, ignored)) {
         throw Error(ErrorCode::InputOutput, "there is no folder " + folder, path);
     }
-    if (access(folder.c_str(), W_OK | X_OK) != 0) {
-        throw Error(ErrorCode::InputOutput,
-                    "cannot write into folder " + folder + ": " + std::strerror(errno), path);
-    }
+    check_writable(folder, path);
 }
 
 }  // namespace
@@ -54,9 +64,8 @@ void check_output_folder(const std::string& path) {
         check_parent_folder(name);
     } else if (!fs::is_directory(name, ignored)) {
         throw Error(ErrorCode::InputOutput, "is not a folder", path);
-    } else if (access(name.c_str(), W_OK | X_OK) != 0) {
-        throw Error(ErrorCode::InputOutput, std::string("cannot write: ") + std::strerror(errno),
-                    path);
+    } else {
+        check_writable(name, path);
     }
 }
 

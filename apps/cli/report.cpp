@@ -147,8 +147,8 @@ std::string kind_name(const SurfaceSettings& settings) {
 }
 
 bool has_edges(const SurfaceSettings& settings) {
-    return settings.kind == SurfaceKind::File ? settings.tiling == Tiling::Finite
-                                              : settings.boundary == Boundary::Finite;
+    return settings.boundary == Boundary::Finite ||
+           (settings.kind == SurfaceKind::File && settings.tiling == Tiling::Finite);
 }
 
 std::string surface_line(const SurfaceSettings& settings, const SurfaceStatistics& statistics,
@@ -176,7 +176,7 @@ std::string tiling_line(const SurfaceSettings& settings) {
     std::string text;
     switch (settings.tiling) {
         case Tiling::Mirrored:
-            text = "made periodic by mirroring";
+            text = "mirrored to a periodic tile, unless the file says that it repeats";
             break;
         case Tiling::Periodic:
             text = "taken as periodic";

@@ -13,10 +13,14 @@ LAYER_KEYS = {"theta_deg", "phi_deg", "launched", "albedo", "albedo_stderr", "al
               "absorbed", "truncated", "mean_bounces"}
 
 
+def content(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
 def png_size(path):
     """Width and height of a PNG whose chunks are whole."""
-    with open(path, "rb") as file:
-        data = file.read()
+    data = content(path)
     assert data[:8] == b"\x89PNG\r\n\x1a\n", path
     place, size = 8, None
     while place < len(data):
@@ -73,7 +77,7 @@ class Surface(ProgramTest):
     def test_looks(self):
         for look in ("shaded", "normals"):
             self.passes("surface", "eggcrate", "--size", 32, "--png", f"{look}.png", "--look", look)
-        self.assertNotEqual(open("shaded.png", "rb").read(), open("normals.png", "rb").read())
+        self.assertNotEqual(content("shaded.png"), content("normals.png"))
 
 
 class Simulate(ProgramTest):
@@ -286,8 +290,7 @@ class Export(ProgramTest):
     def test_exr(self):
         self.passes("export", "r.asperity", "-o", "layers.exr")
         self.assert_files("r.asperity", "layers.exr")
-        with open("layers.exr", "rb") as file:
-            self.assertEqual(file.read(4), b"\x76\x2f\x31\x01")
+        self.assertEqual(content("layers.exr")[:4], b"\x76\x2f\x31\x01")
 
     def test_folder(self):
         self.passes("export", "r.asperity", "-o", "layers/")
@@ -303,8 +306,7 @@ class Export(ProgramTest):
                                      ["--scale", "linear"], ["--projection", "disk"],
                                      ["--decades", 2], ["--channel", "R"], ["--channel", 2])):
             self.passes("export", "r.asperity", "-o", f"{k}.png", *options)
-            with open(f"{k}.png", "rb") as file:
-                pictures.add(file.read())
+            pictures.add(content(f"{k}.png"))
         self.assertEqual(len(pictures), 8)
 
     def test_refusals(self):

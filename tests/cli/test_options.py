@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Silly values of every numeric option, names that are nearly right, places that cannot be written:
+one clear line, the right exit code, and no file left."""
+import os
+import resource
+import signal
+import sys
+import unittest
+
+from program import ProgramTest, main, run
+
+SILLY = ["nan", "inf", "-inf", "-1", "0", "1e308", "abc", "", " ", "1,2,3,4", "0x10", "1e", "--",
+         "99999999999999999999999", "1;2", "½"]
+
+# Option: what it needs beside it, and the silly values that are no mistake for it.
+OPTIONS = {
+    "size": ([], []),
+    "roughness": ([], ["0"]),
+    "alpha": (["--surface", "gaussian"], []),
+    "correlation-length": (["--surface", "gaussian"], []),
+    "hurst": (["--surface", "gaussian", "--autocorrelation", "self-affine"], []),
+    "max-slope": (["--surface", "ggx"], []),
+    "surface-seed": ([], ["0"]),
+    "tilt": (["--surface", "vgroove"], ["0"]),
+    "period": (["--surface", "vgroove"], []),
+    "amplitude": (["--surface", "sinusoid"], ["0"]),
+    "cell-size": ([], []),
+    "height-scale": ([], ["-1"]),
+    "layers": ([], []),
+    "theta": ([], ["0", "1,2,3,4"]),
+    "phi": ([], ["-1", "0", "1,2,3,4"]),
+    "f0": (["--fresnel", "schlick"], ["0"]),
+    "ior": (["--fresnel", "dielectric"], ["1,2,3,4"]),
+    "k": (["--fresnel", "conductor", "--ior", "1.5"], ["0", "1,2,3,4"]),
+    "wavelengths": (["--fresnel", "conductor", "--material", "Au"], []),
+    "bounces": ([], []),
+    "jitter": ([], []),
+    "rays": ([], ["0"]),
+    "until": ([], ["0"]),
+    "max-rays": ([], ["0"]),
+    "batches": ([], []),
+    "resolution": ([], []),
+    "orders": ([], []),
+    "seed": ([], ["0"]),
+    "threads": ([], []),
+}
+
+TINY = ["--size", "32", "--resolution", "8", "--layers", "1", "--quiet", "-o", "r.asperity"]
+
+
+class SillyNumbers(ProgramTest):
+    def test_every_option_is_in_the_table(self):
+        """A numeric option is one whose value help shows in capitals that stand for numbers."""
+        names = {"--surface", "--autocorrelation", "--tiling", "--boundary", "--diagonal",
+                 "--fresnel", "--material", "--detector", "--launch", "--config", "--reference",
+                 "--output", "--along-y", "--isotropic", "--json", "--quiet", "--help"}
+        help_lines = self.passes("simulate", "--help").split("\nExamples")[0].splitlines()
+        listed = {word.rstrip(",") for line in help_lines for word in line.split()[:2]
+                  if line.startswith("  ") and word.startswith("--")}
+        self.assertEqual(listed - names, {"--" + option for option in OPTIONS})
+
+    def test_refused(self):
+        for option, (others, fine) in OPTIONS.items():
+            for value in SILLY:
+                with self.subTest(option=option, value=value):
+                    # What comes last counts: the option under test.
+                    arguments = ["simulate", *TINY, *others, "--" + option, value]
+                    if value not in fine:
+                        self.fails(2, *arguments, saying=option)
+                        self.assert_files()
+                        continue
+                    self.passes(*arguments)
+                    os.remove("r.asperity")
+
+    def test_names(self):
+        for option in ("autocorrelation", "tiling", "boundary", "diagonal", "fresnel", "material",
+                       "detector", "launch", "surface", "reference"):
+            for value in ("", "nonsense", "1"):
+                with self.subTest(option=option, value=value):
+                    self.fails(2, "simulate", *TINY, "--" + option, value)
+                    self.assert_files()
+
+
+class NearlyRight(ProgramTest):
+    def test_suggestions(self):
+        for arguments, words in (
+                (["simulte"], "did you mean simulate?"),
+                (["infos"], "did you mean info?"),
+                (["simulate", "--raiz", "3"], "did you mean --rays?"),
+                (["simulate", "--size=3", "--jiter=2"], "did you mean --jitter?"),
+                (["simulate", "--autocor", "gaussian"], "did you mean --autocorrelation?"),
+                (["export", "x", "--colour-mop", "grey"], "did you mean --colour-map?"),
+                (["surface", "gaussian", "--state"], "did you mean --stats?"),
+                (["xyzzy"], "unknown verb 'xyzzy'"),
+                (["simulate", "--xyzzy"], "no option --xyzzy"),
+                (["info", "a", "b"], "'b'"),
+                (["simulate", "--rays"], "--rays needs a value"),
+                (["simulate", "--quiet=perhaps"], "quiet"),
+                ([], "no verb"),
+                (["surface"], "needs"), (["info"], "needs"), (["compare", "a"], "needs"),
+                (["--rays", "3"], "--rays")):
+            with self.subTest(arguments):
+                self.fails(2, *arguments, saying=words)
+
+    def test_help_teaches(self):
+        for verb in ("surface", "simulate", "info", "compare", "export", "selftest"):
+            with self.subTest(verb):
+                text = self.passes(verb, "--help")
+                self.assertIn(f"Usage: asperity {verb}", text)
+                self.assertGreaterEqual(text.count(f"\n  asperity {verb}"), 3)
+                self.assertLessEqual(max(map(len, text.splitlines())), 100)
+                self.assertIn(verb, self.passes("--help"))
+        text = self.passes("simulate", "--help")
+        for group in ("Surface", "Light", "Facets", "Detector", "Run", "Output"):
+            self.assertIn(f"\n{group}\n", text)
+        self.assertIn("asperity", self.passes("--version"))
+
+
+class Outputs(ProgramTest):
+    def test_refused_before_computing(self):
+        os.mkdir("folder")
+        # Too much work to finish within the time limit: the refusal comes first.
+        for path in ("no/such/r.asperity", "folder", "folder/", "new/", "/dev/full", "/dev/null",
+                     "/proc/r.asperity"):
+            with self.subTest(path):
+                self.fails(4, "simulate", "--rays", "1e9", "-o", path, saying=path)
+                self.assertEqual(os.listdir("folder"), [])
+        self.fails(2, "simulate", "--rays", "1e9", "-o", "")
+        self.fails(2, "surface", "flat", "-o", "heights.doc", saying=".gsf")
+        self.fails(2, "surface", "flat", "--png", "s.jpg", saying=".png")
+        self.fails(2, "surface", "flat", "--png", "s.png", "--look", "nice", saying="look")
+        for path in ("no/s.gsf", "/dev/full.gsf/s.gsf"):
+            self.fails(4, "surface", "flat", "-o", path, saying=path)
+        self.assert_files("folder")
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
+    def test_closed_folder(self):
+        os.mkdir("closed", mode=0o500)
+        self.fails(4, "simulate", "--rays", "1e9", "-o", "closed/r.asperity", saying="closed")
+
+    def test_disk_that_fills_up(self):
+        """A result larger than files may be: refused, and nothing is left."""
+        def limit_files():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+
+        for arguments in (["simulate", "--size", "32", "--quiet", "-o", "r.asperity"],
+                          ["surface", "flat", "-o", "s.gsf"], ["surface", "thesis", "-o", "s.exr"],
+                          ["surface", "thesis", "-o", "s.txt"],
+                          ["surface", "thesis", "--png", "s.png"]):
+            with self.subTest(arguments):
+                done = run(*arguments, preexec_fn=limit_files)
+                self.assertEqual(done.returncode, 4, done.stderr)
+                self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+                self.assert_files()
+
+    def test_little_memory(self):
+        """Not enough memory for the surface: error 5, and nothing is left."""
+        def limit_memory():
+            resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
+
+        done = run("simulate", "--size", "32768", "--quiet", "-o", "r.asperity",
+                   preexec_fn=limit_memory)
+        self.assertEqual(done.returncode, 5, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assert_files()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
