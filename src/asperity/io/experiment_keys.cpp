@@ -151,8 +151,16 @@ const ExperimentKey kKeys[] = {
      [](const E& e) { return shortest(e.run.jitter); }},
     {"rays", "Rays", [](E& e, const V& v) { e.run.rays = v.count(kMaxRaysPerLayer); },
      [](const E& e) { return text_of(e.run.rays); }},
-    {"until", "Rays", [](E& e, const V& v) { e.run.until = v.share(kUntil); },
-     [](const E& e) { return shortest(e.run.until); }},
+    {"until", "Rays",
+     [](E& e, const V& v) {
+         const auto shares = v.shares(kUntil, 2);
+         e.run.until = shares.front();
+         e.run.until_cells = shares.size() == 2 ? shares.back() : 0;
+     },
+     [](const E& e) {
+         return e.run.until_cells > 0 ? text_of(std::vector{e.run.until, e.run.until_cells})
+                                      : shortest(e.run.until);
+     }},
     {"max-rays", "Rays", [](E& e, const V& v) { e.run.max_rays = v.count(kMaxRaysPerLayer); },
      [](const E& e) { return text_of(e.run.max_rays); }},
     {"batches", "Rays", [](E& e, const V& v) { e.run.batches = v.integer(2, 4096); },

@@ -37,7 +37,7 @@ void expect_equal(const Experiment& a, const Experiment& b) {
     };
     EXPECT_TRUE(detector(a.detector) == detector(b.detector));
     const auto run = [](const RunSettings& r) {
-        return std::tie(r.jitter, r.rays, r.until, r.max_rays, r.bounces, r.launch, r.batches,
+        return std::tie(r.jitter, r.rays, r.until, r.until_cells, r.max_rays, r.bounces, r.launch, r.batches,
                         r.seed);
     };
     EXPECT_TRUE(run(a.run) == run(b.run));
@@ -62,6 +62,7 @@ class RandomExperiment {
         e.run.jitter = number(1e-9, 1e9);
         e.run.rays = engine_() % kMaxRaysPerLayer;
         e.run.until = number(0, 0.999);
+        e.run.until_cells = number(0, 0.999);
         e.run.max_rays = engine_() % kMaxRaysPerLayer;
         e.run.bounces = integer(1, 10000);
         e.run.launch = static_cast<LaunchPattern>(integer(0, 2));
@@ -179,6 +180,10 @@ TEST(ExperimentText, ReadsListsPairsAndShares) {
     EXPECT_EQ(e.run.until, 0.01);
     apply_setting(e, "until", "0.02");
     EXPECT_EQ(e.run.until, 0.02);
+    apply_setting(e, "until", "1%,5%");
+    EXPECT_EQ(e.run.until_cells, 0.05);
+    apply_setting(e, "until", "1%");
+    EXPECT_EQ(e.run.until_cells, 0);
     apply_setting(e, "rays", "1e6");
     EXPECT_EQ(e.run.rays, 1000000u);
     apply_setting(e, "seed", "18446744073709551615");

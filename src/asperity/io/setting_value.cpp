@@ -66,13 +66,23 @@ std::uint64_t SettingValue::count(std::uint64_t high) const {
     return *value;
 }
 
-double SettingValue::share(const Range& range) const {
-    if (!text_.ends_with('%')) return number(text_, range);
-    const auto percent = parse_double(trimmed(text_.substr(0, text_.size() - 1)));
-    if (!percent) refuse(in_quotes(text_) + " is not a percentage");
+double SettingValue::share(std::string_view text, const Range& range) const {
+    text = trimmed(text);
+    if (!text.ends_with('%')) return number(text, range);
+    const auto percent = parse_double(trimmed(text.substr(0, text.size() - 1)));
+    if (!percent) refuse(in_quotes(text) + " is not a percentage");
     const double value = *percent / 100;
-    if (value < range.low || value > range.high) refuse(in_quotes(text_) + " " + range.rule);
+    if (value < range.low || value > range.high) refuse(in_quotes(text) + " " + range.rule);
     return value;
+}
+
+std::vector<double> SettingValue::shares(const Range& range, std::size_t most) const {
+    const auto parts = split(text_, ',');
+    if (parts.size() > most)
+        refuse(fmt::format("{} is more than {} numbers", in_quotes(text_), most));
+    std::vector<double> shares;
+    for (const std::string_view part : parts) shares.push_back(share(part, range));
+    return shares;
 }
 
 bool SettingValue::flag() const {

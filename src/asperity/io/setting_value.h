@@ -57,8 +57,8 @@ class SettingValue {
     std::uint64_t seed() const;
     /// A whole number, "1e6" included.
     std::uint64_t count(std::uint64_t high) const;
-    /// "1%" or 0.01.
-    double share(const Range& range) const;
+    /// "1%" or 0.01, up to `most` of them between commas.
+    std::vector<double> shares(const Range& range, std::size_t most) const;
     bool flag() const;
 
     template <typename Enum, std::size_t N>
@@ -77,6 +77,7 @@ class SettingValue {
 
   private:
     double number(std::string_view text, const Range& range) const;
+    double share(std::string_view text, const Range& range) const;
 
     const std::string& key_;
     std::string_view raw_, text_;
