@@ -161,7 +161,7 @@ void apply_units(const HeaderReader& header, Heightfield& surface, const std::st
     surface.dx *= *width;
     surface.dy *= *width;
     if (*height == 1) return;
-    for (float& h : surface.heights) h = static_cast<float>(double{h} * *height);
+    for (float& h : surface.heights) h = static_cast<float>(static_cast<double>(h) * *height);
 }
 
 std::string one_line(std::string text) {

@@ -193,25 +193,39 @@ TEST(ExrHeights, RefusesOtherImages) {
     write_exr(folder / "a.exr", {{"id", Imf::UINT}});
     refused("channel 'id' holds integers");
     put(folder / "a.exr", "");
-    refused("not an OpenEXR file (wrong magic)");
+    refused("offset 0: not an OpenEXR file (wrong magic)");
     put(folder / "a.exr", "v");
-    refused("not an OpenEXR file (wrong magic)");
+    refused("offset 0: not an OpenEXR file (wrong magic)");
     put(folder / "a.exr", "\x76\x2f\x31\x01");
-    refused("OpenEXR: ");
+    refused("offset 4: the file ends inside the header");
 }
 
-// The header of a small image made to claim 32768 x 32768 samples.
-TEST(ExrHeights, RefusesABombBeforeAllocating) {
+// Headers of a small image made to claim what it does not have: refused before OpenEXR, which
+// believes them, sees the file.
+TEST(ExrHeights, RefusesClaimsBeforeAllocating) {
     const TemporaryFolder folder;
     write_exr(folder / "a.exr", {{"Y", Imf::FLOAT}});
-    std::string bytes = get(folder / "a.exr");
+    const std::string good = get(folder / "a.exr");
+    const auto claim = [&](std::size_t place, const std::string& bytes, const std::string& why) {
+        put(folder / "a.exr", std::string(good).replace(place, bytes.size(), bytes));
+        expect_error(ErrorCode::InvalidInput, why, [&] { read_heights(folder / "a.exr"); });
+    };
     // "dataWindow\0box2i\0", u32 size 16, then xMin, yMin, xMax, yMax.
-    const std::size_t box = bytes.find("dataWindow") + 11 + 6 + 4;
-    bytes.replace(box, 16, std::string("\0\0\0\0\0\0\0\0\xff\x7f\0\0\xff\x7f\0\0", 16));
-    put(folder / "a.exr", bytes);
-    const auto error = error_of([&] { read_heights(folder / "a.exr"); });
-    ASSERT_TRUE(error);
-    EXPECT_EQ(error->code(), ErrorCode::InvalidInput) << error->what();
+    const std::size_t size = good.find("dataWindow") + 11 + 6, box = size + 4;
+    const auto window = [](std::int32_t right, std::int32_t bottom) {
+        const std::int32_t corners[4] = {0, 0, right, bottom};
+        return std::string(reinterpret_cast<const char*>(corners), sizeof corners);
+    };
+    claim(box, window(32767, 32767), "32768 x 32768 samples do not fit a file of");
+    claim(box, window(32768, 1), "a.exr: 32769 x 2 samples, 2 to 32768");
+    claim(box, window(2147483647, 1), "a.exr: 2147483648 x 2 samples, 2 to 32768");
+    claim(box, window(-1, 1), "the data window is empty");
+    claim(box, window(0, 5), "a.exr: 1 x 6 samples, 2 to 32768");
+    claim(size, "\xff\xff\xff\x7f", "attribute 'dataWindow' claims 2147483647 bytes, the header");
+    claim(size, "\xff\xff\xff\xff", "attribute 'dataWindow' claims 4294967295 bytes, the header");
+    claim(size, "\x0f", "the data window does not have 16 bytes");
+    claim(5, "\x10", "offset 4: several parts, heights need one");
+    claim(5, "\x08", "offset 4: a deep image holds no heights");
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ Heightfield load_file(const SurfaceSettings& settings) {
     if (settings.file.empty()) throw Error(ErrorCode::Usage, "the file name is empty", "surface");
     Heightfield surface = read_heights(settings.file);
     apply_cell_size(surface, settings);
-    for (float& h : surface.heights) h = static_cast<float>(double{h} * settings.height_scale);
+    for (float& h : surface.heights)
+        h = static_cast<float>(static_cast<double>(h) * settings.height_scale);
     if (settings.diagonal == Diagonal::Main) surface.diagonal = Diagonal::Main;
 
     // A file that says it is periodic has nothing to mirror.

@@ -104,7 +104,7 @@ class MatrixReader {
     void add_number(std::string_view text) {
         const auto number = parse_double(text);
         if (!number) fail(in_quotes(text) + " is not a number");
-        if (std::abs(*number) > double{std::numeric_limits<float>::max()})
+        if (std::abs(*number) > static_cast<double>(std::numeric_limits<float>::max()))
             fail(in_quotes(text) + " is too large");
         numbers_.push_back(static_cast<float>(*number));
         if (numbers_.size() > static_cast<std::size_t>(kMaxSurfaceSide) * kMaxSurfaceSide)
