@@ -15,20 +15,6 @@ namespace {
 constexpr std::size_t kBarWidth = 24;
 constexpr double kSecondsBetweenLines = 10;
 
-std::string line_of(const Progress& p) {
-    const double share =
-        p.total == 0 ? 0 : static_cast<double>(p.done) / static_cast<double>(p.total);
-    const auto filled = static_cast<std::size_t>(share * double{kBarWidth});
-    std::string line = fmt::format("{} [{}{}] {:3.0f} %", p.stage, std::string(filled, '#'),
-                                   std::string(kBarWidth - filled, '.'), 100 * share);
-    if (p.per_second > 0) {
-        // Only light is counted in rays.
-        if (p.stage == "tracing") line += fmt::format("  {}rays/s", short_number(p.per_second));
-        line += fmt::format("  {} left", clock_text(p.seconds_left));
-    }
-    return line;
-}
-
 }  // namespace
 
 std::string clock_text(double seconds) {
@@ -56,6 +42,25 @@ ProgressBar::~ProgressBar() {
 void ProgressBar::clear() {
     if (drawn_) write_err("\r\x1b[K");
     drawn_ = false;
+}
+
+std::string ProgressBar::line_of(const Progress& p) const {
+    const double share = static_cast<double>(p.done) / static_cast<double>(p.total);
+    const auto filled = static_cast<std::size_t>(share * static_cast<double>(kBarWidth));
+    // Only light is counted in rays and layers.
+    const bool light = p.stage == "tracing";
+    std::string line = p.stage;
+    if (light && layers_ > 0) {
+        const auto done = static_cast<std::size_t>(share * static_cast<double>(layers_));
+        line += fmt::format(" layer {} of {}", std::min(done + 1, layers_), layers_);
+    }
+    line += fmt::format(" [{}{}] {:3.0f} %", std::string(filled, '#'),
+                        std::string(kBarWidth - filled, '.'), 100 * share);
+    if (p.per_second > 0) {
+        if (light) line += fmt::format("  {}rays/s", short_number(p.per_second));
+        line += fmt::format("  {} left", clock_text(p.seconds_left));
+    }
+    return line;
 }
 
 void ProgressBar::show(const Progress& progress) {

@@ -3,6 +3,7 @@
 
 #include <asperity/core/run.h>
 
+#include <cstddef>
 #include <mutex>
 #include <string>
 
@@ -19,15 +20,20 @@ class ProgressBar {
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
+    /// Names the layer under way, of `layers` that take as many rays each.
+    void count_layers(std::size_t layers) { layers_ = layers; }
+
     /// Takes the line off the terminal, so that other text may follow.
     void clear();
 
   private:
     void show(const Progress& progress);
+    std::string line_of(const Progress& progress) const;
 
     Run& run_;
     std::mutex mutex_;  ///< progress may come from any thread
     bool terminal_;
+    std::size_t layers_ = 0;  ///< 0: not known
     bool drawn_ = false;
     std::string stage_;
     int quarters_ = 0;         ///< of this stage that were told

@@ -13,6 +13,7 @@
 #include <asperity/brdf/compare.h>
 #include <asperity/brdf/spec.h>
 #include <asperity/core/error.h>
+#include <asperity/gonio/launch.h>
 #include <asperity/gonio/measure.h>
 #include <asperity/io/result_file.h>
 #include <asperity/io/surface_files.h>
@@ -86,6 +87,10 @@ class SimulateVerb {
         const Heightfield surface = io::load_surface(experiment.surface, run);
         progress.clear();
         describe(say, experiment.surface, surface, run);
+        // A run that refines until it is accurate gives each layer the rays it needs.
+        if (experiment.run.until == 0) {
+            progress.count_layers(incidences(experiment.illumination).size());
+        }
         const Measurement m = measure(surface, experiment, run);
         progress.clear();
 
