@@ -8,6 +8,7 @@
 #include <asperity/surface/spectrum.h>
 
 #include <cmath>
+#include <utility>
 
 namespace asperity {
 

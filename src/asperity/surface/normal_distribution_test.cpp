@@ -58,6 +58,45 @@ TEST(NormalDistribution, OfAGrooveHasTwoNormals) {
     EXPECT_NEAR(share(4), 0.5, 1e-12);
 }
 
+/// A plane that rises towards +x at 32 degrees, without its return.
+Heightfield plane(bool along_y) {
+    SurfaceSettings settings = settings_of(SurfaceKind::Tilted, 16);
+    settings.tilt_deg = 32;
+    settings.boundary = Boundary::Finite;
+    settings.along_y = along_y;
+    return make(settings);
+}
+
+// The normal of a plane that rises towards +x leans towards -x: phi = 180 degrees; towards +y: 270.
+TEST(NormalDistribution, OfAPlaneHasOneNormal) {
+    for (const bool along_y : {false, true}) {
+        const auto d = normal_distribution(plane(along_y), 18, 8, 2);  // 5 and 45 degrees
+        for (int t = 0; t < 18; ++t)
+            for (int p = 0; p < 8; ++p) {
+                const bool here = t == 6 && p == (along_y ? 6 : 4);
+                EXPECT_NEAR(
+                    d.density[static_cast<std::size_t>(t * 8 + p)] * d.projected_solid_angle(t),
+                    here ? 1.0 : 0.0, 1e-12)
+                    << t << ' ' << p;
+            }
+    }
+}
+
+// Seen from -x at polar angle theta, a plane that rises towards +x by t offers cos(theta - t) times
+// its area 1 / cos(t); from +x, cos(theta + t) / cos(t), and nothing beyond theta = 90 - t.
+TEST(ProjectedArea, OfAPlane) {
+    for (const bool along_y : {false, true}) {
+        const Heightfield surface = plane(along_y);
+        const double uphill = along_y ? kPi / 2 : 0, t = radians(32);
+        for (const double theta : {0.0, 0.5, 1.0, 1.5}) {
+            EXPECT_NEAR(projected_area(surface, from_spherical(theta, uphill + kPi), 2),
+                        std::cos(theta - t) / std::cos(t), 1e-6);
+            EXPECT_NEAR(projected_area(surface, from_spherical(theta, uphill), 2),
+                        std::max(0.0, std::cos(theta + t) / std::cos(t)), 1e-6);
+        }
+    }
+}
+
 // D of Beckmann: exp(-tan^2 / alpha^2) / (pi alpha^2 cos^4). The share of projected area between
 // two polar angles is exp(-tan^2 t1 / alpha^2) - exp(-tan^2 t2 / alpha^2).
 TEST(NormalDistribution, OfAGaussianSurfaceIsBeckmann) {

@@ -58,6 +58,10 @@ TEST(SlopeDistance, OfASingleLength) {
     // Cut at slope 0.5 only lengths up to 1 count: no facet there, the law has F(1) = 0.5
     const SlopeLaw cut{SlopeLaw::Family::Ggx, 0.5, 0.5, 0.5};
     EXPECT_NEAR(slope_distribution_distance(surface, cut, 2), 0.5, 2e-4);
+    // Along x a slope cut at 0.75 has length 0.75 / 0.5 = 1.5, along y 3: compared up to the
+    // smaller
+    const SlopeLaw oblong{SlopeLaw::Family::Ggx, 0.5, 0.25, 0.75};
+    EXPECT_NEAR(slope_distribution_distance(surface, oblong, 2), 2.25 / 3.25, 2e-4);
 }
 
 // Gaussian facets follow Beckmann but for chance (0.7 L / side on alpha changes F by half of that)

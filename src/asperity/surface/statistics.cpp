@@ -14,8 +14,8 @@ namespace {
 
 /// Count, mean and central moments (sums of powers 2, 3, 4 about the mean) of some heights.
 ///
-/// Joined by the pairwise formulas of Chan, Golub and LeVeque 1979 and Pebay 2008 (SAND2008-6212,
-/// equations 1.1 to 1.6), which lose no digits where the heights lie far from zero.
+/// Joined by the pairwise formulas of Chan, Golub and LeVeque 1979 and Pebay 2008 (Sandia report
+/// SAND2008-6212), which lose no digits where the heights lie far from zero.
 struct HeightMoments {
     double count = 0, mean = 0, m2 = 0, m3 = 0, m4 = 0;
     double min = std::numeric_limits<double>::infinity();

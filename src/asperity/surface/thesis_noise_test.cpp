@@ -109,6 +109,22 @@ TEST(ThesisNoise, FacetSlopesFollowTheirDensity) {
     EXPECT_LT(chi, testing::chi_square_limit(cells - 1));
 }
 
+// Heights are independent: on 512^2 samples the correlation at any lag has standard deviation
+// 1/512.
+TEST(ThesisNoise, NeighboursAreUncorrelated) {
+    SurfaceSettings settings = settings_of(SurfaceKind::Thesis, 512);
+    settings.roughness = 0.1;
+    const auto heights = make(settings).heights;
+    for (const std::size_t lag : {1U, 2U, 3U, 4U, 5U, 8U, 16U, 511U, 512U, 513U, 1024U}) {
+        double sum = 0;
+        for (std::size_t k = 0; k + lag < heights.size(); ++k)
+            sum += (static_cast<double>(heights[k]) - 0.5) *
+                   (static_cast<double>(heights[k + lag]) - 0.5);
+        const auto count = static_cast<double>(heights.size() - lag);
+        EXPECT_NEAR(12 * sum / count, 0, 4 / 512.0) << lag;
+    }
+}
+
 TEST(ThesisNoise, DependsOnTheSeedAlone) {
     SurfaceSettings settings = settings_of(SurfaceKind::Thesis, 250);
     const Heightfield one = make(settings, 1);
