@@ -32,8 +32,7 @@ std::string text_of_result(const Measurement& m, const std::string& path) {
     text +=
         "surface: " + surface_line(m.experiment.surface, m.surface, m.surface_nx, m.surface_ny) +
         "\n";
-    const std::string tiling = tiling_line(m.experiment.surface);
-    if (!tiling.empty()) text += "surface: " + tiling + "\n";
+    text += "surface: " + m.surface_name + "\n";
     text += fmt::format(
         "detector: {}, {} rows x {} columns, {} bounce orders; channels: {}; seed {}\n",
         m.detector.kind() == DetectorKind::LatLong ? "latlong" : "equal-area", m.detector.rows(),

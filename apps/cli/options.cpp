@@ -5,6 +5,7 @@
 
 #include <asperity/core/error.h>
 #include <asperity/io/experiment_text.h>
+#include <asperity/optics/fresnel.h>
 
 #include <fmt/format.h>
 
@@ -65,7 +66,8 @@ constexpr OptionInfo kOptions[] = {
      "azimuths the light comes from in degrees; every theta x every phi"},
     {"isotropic", "", kLight, "random azimuth per ray, outgoing azimuth relative to it"},
 
-    {"fresnel", "NAME", kFacets, "none (perfect mirrors), schlick, dielectric or conductor"},
+    {"fresnel", "NAME", kFacets, "none (perfect mirrors), schlick, dielectric or conductor",
+     "what the options below imply"},
     {"f0", "X[,Y,Z]", kFacets, "schlick: reflectance along the normal, one or per channel",
      "from --ior"},
     {"ior", "N[,...]", kFacets, "index of refraction (its real part)", "none"},
@@ -226,6 +228,10 @@ Experiment ExperimentOptions::read(const std::string& spec) {
             throw Error(ErrorCode::Usage, "the value is empty", key);
         io::apply_setting(experiment, key, value);
     }
+    // Perfect mirrors have neither index nor material: who gives one means what it implies.
+    FresnelKind& fresnel = experiment.optics.fresnel;
+    if (fresnel == FresnelKind::None && !given("fresnel"))
+        fresnel = implied_fresnel(experiment.optics);
     return experiment;
 }
 

@@ -56,7 +56,10 @@ class LayerTable {
           comparison_(comparison),
           phi_(std::any_of(m_.layers.begin(), m_.layers.end(),
                            [](const Layer& layer) { return layer.phi_i != 0; })),
-          edge_(has_edges(m_.experiment.surface)) {}
+          edge_(std::any_of(m_.layers.begin(), m_.layers.end(), [](const Layer& layer) {
+              return std::any_of(layer.edge.begin(), layer.edge.end(),
+                                 [](auto e) { return e > 0; });
+          })) {}
 
     std::string text() const {
         Table table(heads());
@@ -146,47 +149,30 @@ std::string kind_name(const SurfaceSettings& settings) {
     return {};
 }
 
-bool has_edges(const SurfaceSettings& settings) {
-    return settings.boundary == Boundary::Finite ||
-           (settings.kind == SurfaceKind::File && settings.tiling == Tiling::Finite);
-}
-
 std::string surface_line(const SurfaceSettings& settings, const SurfaceStatistics& statistics,
                          int nx, int ny) {
     std::string asked;
-    const bool random = settings.kind == SurfaceKind::Gaussian || settings.kind == SurfaceKind::Ggx;
     if (settings.kind == SurfaceKind::Thesis) {
-        asked = fmt::format("roughness {} asked, alpha", settings.roughness);
-    } else if (random && settings.alpha_x == settings.alpha_y) {
-        asked = fmt::format("alpha {} asked,", settings.alpha_x);
-    } else if (random) {
-        asked = fmt::format("alpha {} x {} asked,", settings.alpha_x, settings.alpha_y);
-    } else {
-        asked = "alpha";
+        asked = fmt::format("roughness {} asked", settings.roughness);
+    } else if (settings.kind == SurfaceKind::Gaussian || settings.kind == SurfaceKind::Ggx) {
+        asked = settings.alpha_x == settings.alpha_y
+                    ? fmt::format("alpha {} asked", settings.alpha_x)
+                    : fmt::format("alpha {} x {} asked", settings.alpha_x, settings.alpha_y);
     }
+    // A GGX surface has no RMS slope of its own: its figure grows with the largest slope allowed.
+    const char* realised = settings.kind == SurfaceKind::Ggx ? "RMS gradient" : "alpha";
     return fmt::format(
-        "{}, {} x {} samples, {} {:.4g} realised (x {:.4g}, y {:.4g}), "
+        "{}, {} x {} samples, {}{}{} {:.4g} realised (x {:.4g}, y {:.4g}), "
         "RMS height {:.4g}",
-        kind_name(settings), nx, ny, asked, statistics.rms_gradient, statistics.alpha_x,
-        statistics.alpha_y, statistics.rms_height);
+        kind_name(settings), nx, ny, asked, asked.empty() ? "" : ", ", realised,
+        statistics.rms_gradient, statistics.alpha_x, statistics.alpha_y, statistics.rms_height);
 }
 
-std::string tiling_line(const SurfaceSettings& settings) {
-    if (settings.kind != SurfaceKind::File) return {};
-    std::string text;
-    switch (settings.tiling) {
-        case Tiling::Mirrored:
-            text = "mirrored to a periodic tile, unless the file says that it repeats";
-            break;
-        case Tiling::Periodic:
-            text = "taken as periodic";
-            break;
-        case Tiling::Finite:
-            text = "a finite patch: rays through its side are lost and counted";
-            break;
-    }
+std::string tiling_line(const SurfaceSettings& settings, const Heightfield& surface) {
+    if (surface.tiling.empty()) return {};
     const bool is_default = settings.tiling == SurfaceSettings{}.tiling;
-    return text + (is_default ? " (the default of --tiling)" : " (--tiling)");
+    return surface.tiling +
+           (is_default ? " (the default of --tiling)" : " (--tiling)");
 }
 
 std::string layer_table(const Measurement& measurement,

@@ -17,13 +17,10 @@ std::string surface_line(const SurfaceSettings& settings, const SurfaceStatistic
 
 /// How a file that need not repeat fills the plane, and that the default was used if so; empty for
 /// made surfaces.
-std::string tiling_line(const SurfaceSettings& settings);
+std::string tiling_line(const SurfaceSettings& settings, const Heightfield& surface);
 
 /// The word the command line uses for a kind, "gaussian"; a file's name.
 std::string kind_name(const SurfaceSettings& settings);
-
-/// Whether the surface is a patch through whose side rays can be lost.
-bool has_edges(const SurfaceSettings& settings);
 
 /// The table of a measurement, a row per layer. `comparison`, when given, adds the columns of L1
 /// and its noise; its rows are found by incident direction.

@@ -119,7 +119,7 @@ class SimulateVerb {
         if (quiet_) return;
         const SurfaceStatistics figures = statistics(surface, run.threads());
         say("surface: " + surface_line(settings, figures, surface.nx, surface.ny) + "\n");
-        const std::string tiling = tiling_line(settings);
+        const std::string tiling = tiling_line(settings, surface);
         if (!tiling.empty()) say("surface: " + tiling + "\n");
     }
 

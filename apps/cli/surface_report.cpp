@@ -45,7 +45,7 @@ SurfaceReport::SurfaceReport(const SurfaceSettings& settings, const Heightfield&
 
 std::string SurfaceReport::headline() const {
     std::string text = surface_line(settings_, statistics_, surface_.nx, surface_.ny) + "\n";
-    const std::string tiling = tiling_line(settings_);
+    const std::string tiling = tiling_line(settings_, surface_);
     if (!tiling.empty()) text += tiling + "\n";
     return text;
 }
@@ -93,7 +93,7 @@ Json SurfaceReport::json() const {
     json["boundary"] = boundary_name(surface_);
     json["diagonal"] = surface_.diagonal == Diagonal::Anti ? "anti" : "main";
     json["isotropic"] = surface_.isotropic;
-    if (settings_.kind == SurfaceKind::File) json["tiling"] = tiling_line(settings_);
+    if (settings_.kind == SurfaceKind::File) json["tiling"] = tiling_line(settings_, surface_);
     json["asked"] = Json::object();
     if (settings_.kind == SurfaceKind::Thesis) json["asked"]["roughness"] = settings_.roughness;
     if (alpha_was_asked(settings_)) {

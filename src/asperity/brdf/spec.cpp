@@ -138,14 +138,6 @@ std::unique_ptr<Brdf> parse_cook_torrance(const std::string& spec, std::string_v
     return std::make_unique<CookTorranceBrdf>(s);
 }
 
-/// The Fresnel kind that the given settings can only mean.
-FresnelKind implied_fresnel(const OpticsSettings& optics) {
-    if (!optics.material.empty() || !optics.k.empty()) return FresnelKind::Conductor;
-    if (!optics.f0.empty()) return FresnelKind::Schlick;
-    if (!optics.ior.empty()) return FresnelKind::Dielectric;
-    return FresnelKind::None;
-}
-
 std::unique_ptr<Brdf> parse_microfacet(const std::string& spec, std::string_view settings,
                                        SlopeDistribution distribution) {
     const SpecReader reader(

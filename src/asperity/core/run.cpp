@@ -54,7 +54,9 @@ Progress Run::progress() const {
 }
 
 void Run::notify() {
-    if (listener_) listener_(progress());
+    if (!listener_) return;
+    const std::scoped_lock lock(listener_mutex_);
+    listener_(progress());
 }
 
 }  // namespace asperity

@@ -36,8 +36,8 @@ class Run {
     void request_stop() noexcept { stop_.store(true, std::memory_order_relaxed); }
     bool stop_requested() const noexcept { return stop_.load(std::memory_order_relaxed); }
 
-    /// Called at most ten times a second, and once at the end of each stage, from the thread that
-    /// advances. Set it before the task starts.
+    /// Called about ten times a second, and once at the end of each stage, from a thread of the
+    /// task, never from two at once. Set it before the task starts.
     void on_progress(Listener listener) { listener_ = std::move(listener); }
 
     void begin(std::string stage, std::uint64_t total);
@@ -56,6 +56,7 @@ class Run {
     std::atomic<bool> stop_{false};
     std::atomic<std::uint64_t> done_{0}, total_{0};
     mutable std::mutex mutex_;
+    std::mutex listener_mutex_;
     std::string stage_;
     Clock::time_point begin_ = Clock::now(), last_notice_ = Clock::now();
     Listener listener_;

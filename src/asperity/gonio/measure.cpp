@@ -93,6 +93,7 @@ class Gonioreflectometer {
         m.channel_names = fresnel_.channel_names();
         m.surface = statistics(surface_, run_.threads());
         m.surface_name = surface_.name;
+        if (!surface_.tiling.empty()) m.surface_name += ", " + surface_.tiling;
         m.surface_nx = surface_.nx;
         m.surface_ny = surface_.ny;
         m.surface_dx = surface_.dx;

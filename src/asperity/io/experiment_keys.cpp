@@ -54,7 +54,7 @@ const Range kAzimuth = {-360, 360, "must be in -360 .. 360"};
 const Range kVisible = {400, 700, "must be in 400 .. 700 nm"};
 const Range kHurst = {kAboveZero.low, 1, "must be above 0 and at most 1"};
 const Range kJitter = {kAboveZero.low, 1e9, "must be above 0 and at most 1e9"};
-const Range kUntil = {0, std::nextafter(1.0, 0.0), "must be at least 0 and below 1"};
+const Range kUntil = {kAboveZero.low, std::nextafter(1.0, 0.0), "must be above 0 and below 1"};
 
 std::string text_of(bool flag) {
     return flag ? "true" : "false";
@@ -66,6 +66,10 @@ std::string text_of(int number) {
 
 std::string text_of(std::uint64_t number) {
     return std::to_string(number);
+}
+
+std::string count_or_auto(std::uint64_t count) {
+    return count == 0 ? "auto" : std::to_string(count);
 }
 
 using io::text_of;
@@ -149,20 +153,26 @@ const ExperimentKey kKeys[] = {
      [](const E& e) { return text_of(e.run.bounces); }},
     {"jitter", "Rays", [](E& e, const V& v) { e.run.jitter = v.number(kJitter); },
      [](const E& e) { return shortest(e.run.jitter); }},
-    {"rays", "Rays", [](E& e, const V& v) { e.run.rays = v.count(kMaxRaysPerLayer); },
-     [](const E& e) { return text_of(e.run.rays); }},
+    {"rays", "Rays", [](E& e, const V& v) { e.run.rays = v.count_or_auto(2, kMaxRaysPerLayer); },
+     [](const E& e) { return count_or_auto(e.run.rays); }},
     {"until", "Rays",
      [](E& e, const V& v) {
+         if (v.text() == "none") {
+             e.run.until = e.run.until_cells = 0;
+             return;
+         }
          const auto shares = v.shares(kUntil, 2);
          e.run.until = shares.front();
          e.run.until_cells = shares.size() == 2 ? shares.back() : 0;
      },
      [](const E& e) {
+         if (e.run.until == 0) return std::string("none");
          return e.run.until_cells > 0 ? text_of(std::vector{e.run.until, e.run.until_cells})
                                       : shortest(e.run.until);
      }},
-    {"max-rays", "Rays", [](E& e, const V& v) { e.run.max_rays = v.count(kMaxRaysPerLayer); },
-     [](const E& e) { return text_of(e.run.max_rays); }},
+    {"max-rays", "Rays",
+     [](E& e, const V& v) { e.run.max_rays = v.count_or_auto(2, kMaxRaysPerLayer); },
+     [](const E& e) { return count_or_auto(e.run.max_rays); }},
     {"batches", "Rays", [](E& e, const V& v) { e.run.batches = v.integer(2, 4096); },
      [](const E& e) { return text_of(e.run.batches); }},
     {"launch", "Rays", [](E& e, const V& v) { e.run.launch = v.choice(kLaunches); },

@@ -13,8 +13,8 @@ namespace asperity::io {
 /// One line of a settings file: `key = value`, the key being a long option of the command line.
 struct Setting {
     std::string key;
-    std::string value;   ///< lists joined by commas
-    int line = 0;        ///< in the file, from 1
+    std::string value;  ///< lists joined by commas
+    int line = 0;       ///< in the file, from 1
 };
 
 /// Splits a settings text into its lines: `key = value`, `#` starts a comment, blank lines are

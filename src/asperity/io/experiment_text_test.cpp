@@ -37,8 +37,8 @@ void expect_equal(const Experiment& a, const Experiment& b) {
     };
     EXPECT_TRUE(detector(a.detector) == detector(b.detector));
     const auto run = [](const RunSettings& r) {
-        return std::tie(r.jitter, r.rays, r.until, r.until_cells, r.max_rays, r.bounces, r.launch, r.batches,
-                        r.seed);
+        return std::tie(r.jitter, r.rays, r.until, r.until_cells, r.max_rays, r.bounces, r.launch,
+                        r.batches, r.seed);
     };
     EXPECT_TRUE(run(a.run) == run(b.run));
 }
@@ -61,7 +61,7 @@ class RandomExperiment {
         e.detector = {static_cast<DetectorKind>(integer(0, 1)), integer(2, 8192), integer(1, 256)};
         e.run.jitter = number(1e-9, 1e9);
         e.run.rays = engine_() % kMaxRaysPerLayer;
-        e.run.until = number(0, 0.999);
+        e.run.until = number(1e-6, 0.999);
         e.run.until_cells = number(0, 0.999);
         e.run.max_rays = engine_() % kMaxRaysPerLayer;
         e.run.bounces = integer(1, 10000);
@@ -231,11 +231,11 @@ TEST(ExperimentText, RefusesSillyValuesNamingKeyAndValue) {
     bad("alpha", "-1", "must be above 0");
     bad("tilt", "90", "must be at least 0 and below 90");
     bad("theta", "90", "must be at least 0 and below 90");
-    bad("until", "100%", "must be at least 0 and below 1");
-    bad("until", "-1%", "must be at least 0 and below 1");
+    bad("until", "100%", "must be above 0 and below 1");
+    bad("until", "-1%", "must be above 0 and below 1");
     bad("rays", "4294967296", "is more than " + std::to_string(kMaxRaysPerLayer));
-    bad("rays", "-1", "is not a whole number of at least 0");
-    bad("rays", "1.5", "is not a whole number of at least 0");
+    bad("rays", "-1", "is not a whole number of at least 2");
+    bad("rays", "1.5", "is not a whole number of at least 2");
     bad("bounces", "0", "must be in 1 .. 10000");
     bad("batches", "1", "must be in 2 .. 4096");
     bad("fresnel", "gold", "is none of none, schlick, dielectric, conductor");

@@ -3,7 +3,6 @@
 #include <asperity/io/surface_files.h>
 #include <asperity/io/tile_heights.h>
 #include <asperity/surface/make_surface.h>
-#include <fmt/format.h>
 
 namespace asperity::io {
 namespace {
@@ -26,12 +25,18 @@ Heightfield load_file(const SurfaceSettings& settings) {
 
     // A file that says it is periodic has nothing to mirror.
     const bool finite = settings.tiling == Tiling::Finite || settings.boundary == Boundary::Finite;
-    if (finite)
+    surface.tiling = "periodic as the file says";
+    if (finite) {
         surface.boundary = Boundary::Finite;
-    else if (settings.tiling == Tiling::Periodic)
+        surface.tiling = "a finite patch";
+    } else if (settings.tiling == Tiling::Periodic) {
         surface.boundary = Boundary::Periodic;
-    else if (surface.boundary == Boundary::Finite)
+        surface.tiling = "taken as periodic";
+    } else if (surface.boundary == Boundary::Finite) {
         surface = mirrored(surface);
+        surface.tiling = "mirrored to a periodic tile";
+    }
+    if (surface.name.empty()) surface.name = settings.file;
     validate(surface, settings.file);
     return surface;
 }

@@ -54,14 +54,16 @@ std::uint64_t SettingValue::seed() const {
     return *value;
 }
 
-std::uint64_t SettingValue::count(std::uint64_t high) const {
+std::uint64_t SettingValue::count_or_auto(std::uint64_t low, std::uint64_t high) const {
+    if (text_ == kAuto) return 0;
     auto value = parse_integer<std::uint64_t>(text_);
     if (!value) {
         const auto real = parse_double(text_);
         if (real && *real >= 0 && *real <= 0x1p53 && *real == std::floor(*real))
             value = static_cast<std::uint64_t>(*real);
     }
-    if (!value) refuse(in_quotes(text_) + " is not a whole number of at least 0");
+    if (!value || *value < low)
+        refuse(fmt::format("{} is not a whole number of at least {}", in_quotes(text_), low));
     if (*value > high) refuse(fmt::format("{} is more than {}", in_quotes(text_), high));
     return *value;
 }

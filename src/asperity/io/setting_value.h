@@ -55,8 +55,8 @@ class SettingValue {
 
     int integer(int low, int high) const;
     std::uint64_t seed() const;
-    /// A whole number, "1e6" included.
-    std::uint64_t count(std::uint64_t high) const;
+    /// A whole number, "1e6" included; 0 for "auto".
+    std::uint64_t count_or_auto(std::uint64_t low, std::uint64_t high) const;
     /// "1%" or 0.01, up to `most` of them between commas.
     std::vector<double> shares(const Range& range, std::size_t most) const;
     bool flag() const;

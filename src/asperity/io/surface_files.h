@@ -14,8 +14,8 @@ namespace asperity::io {
 Heightfield load_surface(const SurfaceSettings& settings, Run& run);
 
 /// Reads heights as they stand in a file, by its ending: .gsf, .exr (one channel), .png (16-bit
-/// grey, value / 65535), .txt .csv .asc .dat (matrix). The result is marked Finite; nothing is
-/// scaled or mirrored.
+/// grey, value / 65535), .txt .csv .asc .dat (matrix). Nothing is scaled or mirrored. The result is
+/// marked Finite unless the file, a .gsf of ours, says otherwise.
 Heightfield read_heights(const std::string& path);
 
 /// Writes heights by the ending of `path`: .gsf, .exr, .txt. Written to a temporary name, synced,

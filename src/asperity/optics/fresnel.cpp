@@ -131,6 +131,13 @@ double fresnel_conductor(double cos_theta, double n, double k) {
     return 0.5 * (rs + rp);
 }
 
+FresnelKind implied_fresnel(const OpticsSettings& optics) {
+    if (!optics.material.empty() || !optics.k.empty()) return FresnelKind::Conductor;
+    if (!optics.f0.empty()) return FresnelKind::Schlick;
+    if (!optics.ior.empty()) return FresnelKind::Dielectric;
+    return FresnelKind::None;
+}
+
 Fresnel::Fresnel(const OpticsSettings& s) : kind_(s.fresnel) {
     switch (kind_) {
         case FresnelKind::None:

@@ -28,6 +28,10 @@ double fresnel_dielectric(double cos_theta, double eta);
 /// Exact reflectance of a conductor for unpolarised light; index n + i k against the outside.
 double fresnel_conductor(double cos_theta, double n, double k);
 
+/// The kind that settings given without one can only mean: a material or k a conductor, f0 Schlick,
+/// an index alone a dielectric, nothing perfect mirrors.
+FresnelKind implied_fresnel(const OpticsSettings& settings);
+
 /// The reflectance of the facets, per channel, ready to evaluate.
 class Fresnel {
   public:

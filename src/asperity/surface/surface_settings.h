@@ -33,7 +33,7 @@ enum class Autocorrelation {
 
 /// How a surface file that does not repeat is made to fill the plane.
 enum class Tiling {
-    Mirrored,  ///< the samples and their mirror images: 2 nx x 2 ny samples, periodic
+    Mirrored,  ///< the samples and their mirror images: (2 nx - 2) x (2 ny - 2) samples
     Periodic,  ///< taken as it is: the file repeats
     Finite,    ///< a patch with edges
 };
