@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake --install gives the headers, the libraries behind one target asperity::asperity, and what
-# find_package(Asperity) and pkg-config need. The program installs itself from apps/cli.
+# find_package(Asperity) needs. The program installs itself from apps/cli.
 include(CMakePackageConfigHelpers)
 
 set(ASPERITY_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/Asperity)

@@ -171,8 +171,7 @@ std::string surface_line(const SurfaceSettings& settings, const SurfaceStatistic
 std::string tiling_line(const SurfaceSettings& settings, const Heightfield& surface) {
     if (surface.tiling.empty()) return {};
     const bool is_default = settings.tiling == SurfaceSettings{}.tiling;
-    return surface.tiling +
-           (is_default ? " (the default of --tiling)" : " (--tiling)");
+    return surface.tiling + (is_default ? " (the default of --tiling)" : " (--tiling)");
 }
 
 std::string layer_table(const Measurement& measurement,

@@ -57,7 +57,7 @@ class LayerSums {
     Errors relative_errors() const;
 
   private:
-    __extension__ typedef unsigned __int128 Wide;
+    __extension__ using Wide = unsigned __int128;
     /// A sum over batches and the sum of its squares, each batch scaled to the largest one's rays.
     struct Spread {
         std::uint64_t sum = 0;

@@ -11,7 +11,7 @@ namespace asperity {
 
 namespace {
 
-__extension__ typedef unsigned __int128 Wide;
+__extension__ using Wide = unsigned __int128;
 
 /// What a random number is for: the fourth word of the counter.
 enum Dimension : std::uint32_t { kPosition, kAzimuth, kShift };

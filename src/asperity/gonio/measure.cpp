@@ -79,7 +79,7 @@ class Gonioreflectometer {
         }
         run_.end();
         m.stopped = run_.stop_requested();
-        if (m.stopped) m.notes.push_back("stopped before it was complete");
+        if (m.stopped) m.notes.emplace_back("stopped before it was complete");
         m.trace_seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         return m;
