@@ -67,8 +67,8 @@ class Gonioreflectometer {
           plan_(plan_batches(surface, experiment.run)) {}
 
     Measurement measure() {
-        const auto begin = std::chrono::steady_clock::now();
         Measurement m = describe();
+        const auto begin = std::chrono::steady_clock::now();
         const std::vector<Incidence> light = incidences(experiment_.illumination);
         rays_ahead_ = plan_.rays * light.size();
         run_.begin("tracing", rays_ahead_);
