@@ -23,7 +23,7 @@ namespace {
 /// Rays followed between two looks at the wish to stop: some milliseconds.
 constexpr std::uint64_t kChunk = 1024;
 /// A batch larger than this is split: a stopped run loses the batches under way.
-constexpr std::uint64_t kLargestBatch = 1 << 20;
+constexpr std::uint64_t kLargestBatch = 1 << 18;
 
 /// How the rays of a layer are divided into independent batches.
 struct BatchPlan {
