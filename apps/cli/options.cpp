@@ -50,8 +50,9 @@ constexpr OptionInfo kOptions[] = {
     {"amplitude", "A", kSurface, "sinusoid, eggcrate: amplitude in cells"},
     {"along-y", "", kSurface, "shapes vary along y, not along x"},
     {"tiling", "NAME", kSurface,
-     "files: mirror (made periodic by mirroring), periodic (they repeat as they are) or finite "
-     "(a patch with edges)"},
+     "files: periodic (they repeat as they are), mirror (made periodic by mirroring), finite (a "
+     "patch "
+     "with edges) or auto (periodic if the file says so or its opposite edges fit, else mirror)"},
     {"boundary", "NAME", kSurface, "made surfaces: periodic, or finite (a patch with edges)"},
     {"cell-size", "C[,CY]", kSurface, "distance of the samples", "1 cell, or what the file says"},
     {"height-scale", "H", kSurface, "multiplies the heights after all else"},

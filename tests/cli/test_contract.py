@@ -72,7 +72,12 @@ class Surface(ProgramTest):
 
     def test_default_tiling_is_told(self):
         self.passes("surface", "thesis", "--size", 16, "-o", "a.gsf")
-        self.assertIn("the default of --tiling", self.passes("surface", "a.gsf"))
+        self.assertIn("periodic as the file says (the default of --tiling)",
+                      self.passes("surface", "a.gsf"))
+        with open("slant.txt", "w") as file:
+            file.write("0 1 2\n0 1 2\n")
+        self.assertIn("mirrored", self.passes("surface", "slant.txt"))
+        self.assertIn("a finite patch", self.passes("surface", "slant.txt", "--tiling", "finite"))
 
     def test_looks(self):
         for look in ("shaded", "normals"):

@@ -19,7 +19,8 @@ constexpr Names<Autocorrelation, 3> kAutocorrelations = {{
     {"exponential", Autocorrelation::Exponential},
     {"self-affine", Autocorrelation::SelfAffine},
 }};
-constexpr Names<Tiling, 3> kTilings = {{
+constexpr Names<Tiling, 4> kTilings = {{
+    {"auto", Tiling::Auto},
     {"mirror", Tiling::Mirrored},
     {"periodic", Tiling::Periodic},
     {"finite", Tiling::Finite},

@@ -91,7 +91,7 @@ class RandomExperiment {
                                      "file:a",         "a b#c.gsf", " a.gsf", "\"q\"\\.gsf",
                                      "two\nlines.gsf", "x.gsf "};
         if (s.kind == SurfaceKind::File) s.file = names[integer(0, 9)];
-        s.tiling = static_cast<Tiling>(integer(0, 2));
+        s.tiling = static_cast<Tiling>(integer(0, 3));
         if (integer(0, 1) == 0) s.cell_x = number(1e-9, 2);
         if (integer(0, 1) == 0) s.cell_y = number(1e-9, 2);
         s.height_scale = number(-5, 5);

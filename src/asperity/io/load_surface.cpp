@@ -15,6 +15,27 @@ void apply_cell_size(Heightfield& surface, const SurfaceSettings& settings) {
     }
 }
 
+/// Makes the surface fill the plane and says in its `tiling` how.
+void tile(Heightfield& surface, Tiling tiling) {
+    const bool says_periodic = surface.boundary == Boundary::Periodic;
+    if (tiling == Tiling::Finite) {
+        surface.boundary = Boundary::Finite;
+        surface.tiling = "a finite patch";
+    } else if (tiling == Tiling::Mirrored) {
+        surface = mirrored(surface);
+        surface.tiling = "mirrored to a periodic tile";
+    } else if (tiling == Tiling::Periodic || says_periodic) {
+        surface.boundary = Boundary::Periodic;
+        surface.tiling = says_periodic ? "periodic as the file says" : "taken as periodic";
+    } else if (edges_fit(surface)) {
+        surface.boundary = Boundary::Periodic;
+        surface.tiling = "periodic, as its opposite edges fit";
+    } else {
+        surface = mirrored(surface);
+        surface.tiling = "mirrored to a periodic tile, as its opposite edges do not fit";
+    }
+}
+
 Heightfield load_file(const SurfaceSettings& settings) {
     if (settings.file.empty()) throw Error(ErrorCode::Usage, "the file name is empty", "surface");
     Heightfield surface = read_heights(settings.file);
@@ -23,21 +44,9 @@ Heightfield load_file(const SurfaceSettings& settings) {
         h = static_cast<float>(static_cast<double>(h) * settings.height_scale);
     if (settings.diagonal == Diagonal::Main) surface.diagonal = Diagonal::Main;
 
-    // A file that says it is periodic has nothing to mirror.
-    const bool finite = settings.tiling == Tiling::Finite || settings.boundary == Boundary::Finite;
-    surface.tiling = "periodic as the file says";
-    if (finite) {
-        surface.boundary = Boundary::Finite;
-        surface.tiling = "a finite patch";
-    } else if (settings.tiling == Tiling::Periodic) {
-        surface.boundary = Boundary::Periodic;
-        surface.tiling = "taken as periodic";
-    } else if (surface.boundary == Boundary::Finite) {
-        surface = mirrored(surface);
-        surface.tiling = "mirrored to a periodic tile";
-    }
-    if (surface.name.empty()) surface.name = settings.file;
     validate(surface, settings.file);
+    tile(surface, settings.boundary == Boundary::Finite ? Tiling::Finite : settings.tiling);
+    if (surface.name.empty()) surface.name = settings.file;
     return surface;
 }
 

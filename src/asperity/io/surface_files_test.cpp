@@ -311,6 +311,27 @@ TEST(LoadSurface, MirrorsWithoutDoublingTheEdge) {
     EXPECT_EQ(mirrored(wide).nx, 32768);
 }
 
+// A groove or noise repeats as it is; a slope, whose edges are a whole rise apart, does not, and
+// neither does half a wave; a file of ours that says periodic is believed.
+TEST(LoadSurface, RepeatsAFileWhoseEdgesFit) {
+    const TemporaryFolder folder;
+    const auto tiling_of = [&](const char* text) {
+        put(folder / "a.txt", text);
+        return load(settings_for(folder / "a.txt"));
+    };
+    const Heightfield groove = tiling_of("0 1 2 1\n0 1 2 1\n0 1 2 1\n");
+    EXPECT_EQ(groove.nx, 4);
+    EXPECT_EQ(groove.ny, 3);
+    EXPECT_EQ(groove.boundary, Boundary::Periodic);
+    EXPECT_EQ(groove.tiling, "periodic, as its opposite edges fit");
+    // Saw teeth of three cells: the step back is as large inside as from the last to the first.
+    EXPECT_EQ(tiling_of("0 1 2 0 1 2\n0 1 2 0 1 2\n").nx, 6);
+    EXPECT_EQ(tiling_of("0 1 2 3\n0 1 2 3\n").nx, 6);
+    EXPECT_EQ(tiling_of("0 0\n1 1\n2 2\n").ny, 4);
+    EXPECT_EQ(tiling_of("0 0 0.4 0.8 1\n0 0 0.4 0.8 1\n").tiling,
+              "mirrored to a periodic tile, as its opposite edges do not fit");
+}
+
 TEST(LoadSurface, AppliesTheSettings) {
     const TemporaryFolder folder;
     put(folder / "a.txt", "0 1 2\n3 4 5\n");

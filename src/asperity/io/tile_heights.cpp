@@ -4,6 +4,9 @@
 #include <asperity/core/error.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace asperity::io {
 namespace {
 
@@ -38,6 +41,26 @@ Heightfield mirrored(const Heightfield& patch) {
         for (std::size_t i = 0; i < 2 * nx - 2; ++i)
             tile.heights.push_back(patch.heights[reflected(j, ny) * nx + reflected(i, nx)]);
     return tile;
+}
+
+bool edges_fit(const Heightfield& surface) {
+    constexpr double kSpare = 1.1;
+    const auto nx = static_cast<std::size_t>(surface.nx), ny = static_cast<std::size_t>(surface.ny);
+    // Sum of squared steps from column i to the next, from row j to the next; the last to the first
+    std::vector<double> columns(nx), rows(ny);
+    for (std::size_t j = 0; j < ny; ++j)
+        for (std::size_t i = 0; i < nx; ++i) {
+            const double h = double{surface.heights[j * nx + i]};
+            const double right = double{surface.heights[j * nx + (i + 1) % nx]} - h;
+            const double down = double{surface.heights[(j + 1) % ny * nx + i]} - h;
+            columns[i] += right * right;
+            rows[j] += down * down;
+        }
+    const auto fits = [](const std::vector<double>& squares) {
+        const double largest = *std::max_element(squares.begin(), squares.end() - 1);
+        return squares.back() <= kSpare * kSpare * largest;
+    };
+    return fits(columns) && fits(rows);
 }
 
 }  // namespace asperity::io

@@ -15,4 +15,10 @@ namespace asperity::io {
 /// Error(InvalidInput) when a side grows beyond kMaxSurfaceSide.
 Heightfield mirrored(const Heightfield& patch);
 
+/// Whether the surface may repeat as it is: the step from the last column to the first is no larger
+/// (RMS over the rows, with a tenth to spare) than the largest step between neighbouring columns,
+/// and likewise for the rows. A surface that repeats, or is rough from sample to sample, fits; a
+/// measured patch of smooth hills or on a slant does not.
+bool edges_fit(const Heightfield& surface);
+
 }  // namespace asperity::io

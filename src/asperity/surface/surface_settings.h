@@ -31,8 +31,9 @@ enum class Autocorrelation {
     SelfAffine,   ///< power spectrum 1 / (1 + (k L)^2)^(1 + hurst), cut likewise
 };
 
-/// How a surface file that does not repeat is made to fill the plane.
+/// How a surface file is made to fill the plane.
 enum class Tiling {
+    Auto,      ///< Periodic when the file says so or its opposite edges fit, else Mirrored
     Mirrored,  ///< the samples and their mirror images: (2 nx - 2) x (2 ny - 2) samples
     Periodic,  ///< taken as it is: the file repeats
     Finite,    ///< a patch with edges
@@ -71,7 +72,7 @@ struct SurfaceSettings {
     double amplitude = 1;  ///< of sinusoid and eggcrate [cells]
     bool along_y = false;  ///< tilted, vgroove, sawtooth, sinusoid vary along y, not along x
     std::string file;      ///< kind File
-    Tiling tiling = Tiling::Mirrored;      ///< kind File
+    Tiling tiling = Tiling::Auto;          ///< kind File
     std::optional<double> cell_x, cell_y;  ///< spacing; default 1 cell, or what the file says;
                                            ///< sides differ by 100 times at most
     double height_scale = 1;  ///< multiplies the heights after all else; negative turns them over
