@@ -122,6 +122,7 @@ std::vector<std::string> long_names(const CLI::App& app) {
     return names;
 }
 
+/// A settings file may also be a pipe, as the shell's <(...) makes one; io's readers want files.
 std::string read_text_file(const std::string& path) {
     constexpr std::streamsize kMostBytes = 1 << 20;
     std::error_code ignored;
