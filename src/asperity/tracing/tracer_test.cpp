@@ -83,6 +83,22 @@ std::optional<BruteHit> brute_force(const Heightfield& s, Vec3 o, Vec3 d, int re
     return nearest;
 }
 
+/// The k-th of many rays at the highest point's height, anywhere over the tile, on their way down
+/// at up to `largest_theta` from the normal.
+Ray ray_from_above(const Tracer& tracer, const CounterRandom& random, std::uint64_t k,
+                   double largest_theta) {
+    const Heightfield& s = tracer.surface();
+    const auto p = random.uniform2(k, 0), q = random.uniform2(k, 1);
+    Ray ray;
+    ray.i = static_cast<int>(p[0] * s.nx);
+    ray.j = static_cast<int>(p[1] * s.ny);
+    ray.u = p[0] * s.nx - ray.i;
+    ray.v = p[1] * s.ny - ray.j;
+    ray.z = double{tracer.max_height()};
+    ray.direction = -from_spherical(q[0] * largest_theta, 2 * kPi * q[1]);
+    return ray;
+}
+
 class TracerOnBothDiagonals : public testing::TestWithParam<Diagonal> {};
 INSTANTIATE_TEST_SUITE_P(Diagonals, TracerOnBothDiagonals,
                          testing::Values(Diagonal::Anti, Diagonal::Main));
@@ -93,14 +109,7 @@ TEST_P(TracerOnBothDiagonals, AgreesWithBruteForceRayForRay) {
     const CounterRandom random(11, 0);
     int hits = 0, differing = 0;
     for (std::uint64_t k = 0; k < 4000; ++k) {
-        const auto p = random.uniform2(k, 0), q = random.uniform2(k, 1);
-        Ray ray;
-        ray.i = static_cast<int>(p[0] * s.nx);
-        ray.j = static_cast<int>(p[1] * s.ny);
-        ray.u = p[0] * s.nx - ray.i;
-        ray.v = p[1] * s.ny - ray.j;
-        ray.z = double{tracer.max_height()};
-        ray.direction = -from_spherical(q[0] * radians(75), 2 * kPi * q[1]);
+        Ray ray = ray_from_above(tracer, random, k, radians(75));
         const Vec3 o = position(s, ray), d = ray.direction;
         const auto expected = brute_force(s, o, d, 17);
         RayEnd end;
@@ -126,14 +135,7 @@ TEST_P(TracerOnBothDiagonals, ReflectedRaysAgreeWithBruteForce) {
     const CounterRandom random(12, 0);
     int compared = 0, differing = 0;
     for (std::uint64_t k = 0; k < 3000; ++k) {
-        const auto p = random.uniform2(k, 0), q = random.uniform2(k, 1);
-        Ray ray;
-        ray.i = static_cast<int>(p[0] * s.nx);
-        ray.j = static_cast<int>(p[1] * s.ny);
-        ray.u = p[0] * s.nx - ray.i;
-        ray.v = p[1] * s.ny - ray.j;
-        ray.z = double{tracer.max_height()};
-        ray.direction = -from_spherical(q[0] * radians(70), 2 * kPi * q[1]);
+        Ray ray = ray_from_above(tracer, random, k, radians(70));
         RayEnd end;
         tracer.trace({&ray, 1}, {&end, 1});
         const Vec3 wm = tracer.normal(ray);
