@@ -23,11 +23,11 @@ std::optional<LawDistances> law_distances(const SurfaceSettings& settings,
     law.alpha_y = asked ? settings.alpha_y : figures.alpha_y;
     if (law.alpha_x <= 0 || law.alpha_y <= 0) return std::nullopt;
     if (settings.kind == SurfaceKind::Ggx) law.max_slope = settings.max_slope;
-    const auto distance = [&](SlopeLaw::Family family) {
+    const auto distance = [&](SlopeFamily family) {
         law.family = family;
         return slope_distribution_distance(surface, law, threads);
     };
-    return LawDistances{distance(SlopeLaw::Family::Beckmann), distance(SlopeLaw::Family::Ggx)};
+    return LawDistances{distance(SlopeFamily::Beckmann), distance(SlopeFamily::Ggx)};
 }
 
 const char* boundary_name(const Heightfield& surface) {

@@ -30,7 +30,7 @@ CookTorranceBrdf::CookTorranceBrdf(const CookTorranceSettings& settings) : setti
             "within 0 .. 1");
     for (const double a : settings.albedo) require(a >= 0 && a <= 1, "albedo", a, "within 0 .. 1");
     // Code 3.4: the width of the distribution is the square of the roughness.
-    facets_ = {SlopeDistribution::Ggx, r * r, r * r};
+    facets_ = {SlopeFamily::Ggx, r * r, r * r};
     k_ = settings.k == GeometryRemap::Direct ? (r + 1) * (r + 1) / 8 : r * r / 2;
     const bool diffuse = settings.diffuse == DiffuseTerm::Uncoupled ||
                          (settings.diffuse == DiffuseTerm::Coupled && settings.metallic < 1);

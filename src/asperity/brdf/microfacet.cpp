@@ -42,9 +42,9 @@ MicrofacetBrdf::MicrofacetBrdf(const MicrofacetSettings& settings)
 
 std::string MicrofacetBrdf::name() const {
     const OpticsSettings& optics = settings_.optics;
-    std::string line = fmt::format(
-        "{}:alpha={}", surface_.distribution == SlopeDistribution::Ggx ? "ggx" : "beckmann",
-        surface_.alpha_x);
+    std::string line =
+        fmt::format("{}:alpha={}", surface_.distribution == SlopeFamily::Ggx ? "ggx" : "beckmann",
+                    surface_.alpha_x);
     if (!isotropic()) line += fmt::format(",alpha_y={}", surface_.alpha_y);
     if (settings_.masking == Masking::Separable) line += ",masking=separable";
     line += fresnel_name(optics.fresnel);

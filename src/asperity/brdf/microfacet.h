@@ -14,7 +14,7 @@ enum class Masking {
 };
 
 struct MicrofacetSettings {
-    SlopeDistribution distribution = SlopeDistribution::Ggx;
+    SlopeFamily distribution = SlopeFamily::Ggx;
     double alpha_x = 0.5, alpha_y = 0.5;  ///< 1e-4 .. 100
     Masking masking = Masking::Correlated;
     OpticsSettings optics;  ///< F = 1 unless set

@@ -18,7 +18,7 @@ double albedo_at(const Brdf& brdf, double mu) {
     return a;
 }
 
-std::unique_ptr<Brdf> model(SlopeDistribution distribution, double alpha,
+std::unique_ptr<Brdf> model(SlopeFamily distribution, double alpha,
                             Masking masking = Masking::Correlated) {
     MicrofacetSettings s;
     s.distribution = distribution;
@@ -39,7 +39,7 @@ TEST(MicrofacetTest, GgxAlbedoIsThePublishedTable) {
         {14, .945407, .889415, .856078}, {10, .987261, .964995, .920251},
     };
     for (const Row& row : rows) {
-        const auto brdf = model(SlopeDistribution::Ggx, row.i * row.i / 961.0);
+        const auto brdf = model(SlopeFamily::Ggx, row.i * row.i / 961.0);
         EXPECT_NEAR(albedo_at(*brdf, 1), row.at_31, 3e-4) << row.i;
         EXPECT_NEAR(albedo_at(*brdf, 15.0 / 31), row.at_15, 3e-4) << row.i;
         EXPECT_NEAR(albedo_at(*brdf, 8.0 / 31), row.at_8, 3e-4) << row.i;
@@ -48,7 +48,7 @@ TEST(MicrofacetTest, GgxAlbedoIsThePublishedTable) {
 
 TEST(MicrofacetTest, RoughestGgxAlongTheNormalIsOneMinusLogTwo) {
     // alpha = 1, wi = z: with t = tan^2(theta_m) the albedo is an elementary integral, 1 - ln 2.
-    EXPECT_NEAR(albedo_at(*model(SlopeDistribution::Ggx, 1), 1), 1 - std::log(2.0), 2e-4);
+    EXPECT_NEAR(albedo_at(*model(SlopeFamily::Ggx, 1), 1), 1 - std::log(2.0), 2e-4);
 }
 
 /// Twice the mean of the albedo times mu: hemispherical albedo, by the midpoint rule.
@@ -64,10 +64,10 @@ double average_albedo(const Brdf& brdf) {
 
 TEST(MicrofacetTest, HemisphericalAlbedo) {
     // GGX: the same tables' E_avg. Beckmann: independent quadrature of the same integral.
-    EXPECT_NEAR(average_albedo(*model(SlopeDistribution::Ggx, 1)), .409137, 1e-3);
-    EXPECT_NEAR(average_albedo(*model(SlopeDistribution::Ggx, .5)), .7002, 1e-3);
-    EXPECT_NEAR(average_albedo(*model(SlopeDistribution::Beckmann, .5)), .8934, 1e-3);
-    EXPECT_NEAR(average_albedo(*model(SlopeDistribution::Beckmann, 1)), .6637, 1e-3);
+    EXPECT_NEAR(average_albedo(*model(SlopeFamily::Ggx, 1)), .409137, 1e-3);
+    EXPECT_NEAR(average_albedo(*model(SlopeFamily::Ggx, .5)), .7002, 1e-3);
+    EXPECT_NEAR(average_albedo(*model(SlopeFamily::Beckmann, .5)), .8934, 1e-3);
+    EXPECT_NEAR(average_albedo(*model(SlopeFamily::Beckmann, 1)), .6637, 1e-3);
 }
 
 TEST(MicrofacetTest, CorrelatedAndSeparableMasking) {
@@ -79,8 +79,8 @@ TEST(MicrofacetTest, CorrelatedAndSeparableMasking) {
                                   {.2, 75, .9141, .9140}};
     for (const auto& row : rows) {
         const double mu = std::cos(radians(row[1]));
-        EXPECT_NEAR(albedo_at(*model(SlopeDistribution::Beckmann, row[0]), mu), row[2], 4e-4);
-        EXPECT_NEAR(albedo_at(*model(SlopeDistribution::Beckmann, row[0], Masking::Separable), mu),
+        EXPECT_NEAR(albedo_at(*model(SlopeFamily::Beckmann, row[0]), mu), row[2], 4e-4);
+        EXPECT_NEAR(albedo_at(*model(SlopeFamily::Beckmann, row[0], Masking::Separable), mu),
                     row[3], 4e-4);
     }
 }
@@ -109,11 +109,11 @@ double peak_deg(const Brdf& brdf, double theta_i_deg) {
 
 TEST(MicrofacetTest, OffSpecularPeak) {
     // Torrance and Sparrow's peak beyond the mirror angle; values by independent quadrature.
-    EXPECT_NEAR(peak_deg(*model(SlopeDistribution::Beckmann, .1), 45), 46.2, .15);
-    EXPECT_NEAR(peak_deg(*model(SlopeDistribution::Beckmann, .1), 60), 62.2, .15);
-    EXPECT_NEAR(peak_deg(*model(SlopeDistribution::Beckmann, .2), 45), 51.2, .15);
-    EXPECT_NEAR(peak_deg(*model(SlopeDistribution::Ggx, .1), 70), 71.7, .15);
-    EXPECT_NEAR(peak_deg(*model(SlopeDistribution::Ggx, .2), 60), 64.8, .15);
+    EXPECT_NEAR(peak_deg(*model(SlopeFamily::Beckmann, .1), 45), 46.2, .15);
+    EXPECT_NEAR(peak_deg(*model(SlopeFamily::Beckmann, .1), 60), 62.2, .15);
+    EXPECT_NEAR(peak_deg(*model(SlopeFamily::Beckmann, .2), 45), 51.2, .15);
+    EXPECT_NEAR(peak_deg(*model(SlopeFamily::Ggx, .1), 70), 71.7, .15);
+    EXPECT_NEAR(peak_deg(*model(SlopeFamily::Ggx, .2), 60), 64.8, .15);
 }
 
 TEST(MicrofacetTest, ReciprocalToRounding) {
@@ -141,7 +141,7 @@ TEST(MicrofacetTest, ReciprocalToRounding) {
 }
 
 TEST(MicrofacetTest, NothingAtOrBelowTheHorizon) {
-    const auto brdf = model(SlopeDistribution::Ggx, .3);
+    const auto brdf = model(SlopeFamily::Ggx, .3);
     const Vec3 up = from_spherical(0.5, 0), down = {0.6, 0, -0.8}, along = {1, 0, 0};
     double f = 1;
     for (const Vec3 w : {down, along}) {
@@ -160,15 +160,15 @@ TEST(MicrofacetTest, ValueByHand) {
     // GGX, alpha = 1/2, both directions along the normal: D = 4 / pi, no masking, f = D / 4.
     double f = 0;
     const Vec3 z = {0, 0, 1};
-    model(SlopeDistribution::Ggx, .5)->eval(z, z, {&f, 1});
+    model(SlopeFamily::Ggx, .5)->eval(z, z, {&f, 1});
     EXPECT_NEAR(f, 1 / kPi, 1e-14);
     // alpha = 1, mirror pair at 45 degrees: D = 1 / pi; Lambda = (sqrt 2 - 1) / 2 each, so
     // G = 1 / sqrt 2; 4 cos cos = 2: f = 1 / (2 sqrt 2 pi).
-    model(SlopeDistribution::Ggx, 1)
+    model(SlopeFamily::Ggx, 1)
         ->eval(from_spherical(kPi / 4, 0), from_spherical(kPi / 4, kPi), {&f, 1});
     EXPECT_NEAR(f, 1 / (2 * std::sqrt(2.0) * kPi), 1e-14);
     // Separable: G = (1 / (1 + Lambda))^2 = 4 / (1 + sqrt 2)^2.
-    model(SlopeDistribution::Ggx, 1, Masking::Separable)
+    model(SlopeFamily::Ggx, 1, Masking::Separable)
         ->eval(from_spherical(kPi / 4, 0), from_spherical(kPi / 4, kPi), {&f, 1});
     EXPECT_NEAR(f, 4 / std::pow(1 + std::sqrt(2.0), 2) / (2 * kPi), 1e-14);
 }

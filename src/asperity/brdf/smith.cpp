@@ -73,7 +73,7 @@ double SmithSurface::normal_density(Vec3 wm) const {
     if (wm.z <= 0) return 0;
     const double x = wm.x / alpha_x, y = wm.y / alpha_y, z2 = wm.z * wm.z;
     const double area = kPi * alpha_x * alpha_y;
-    if (distribution == SlopeDistribution::Ggx) {
+    if (distribution == SlopeFamily::Ggx) {
         const double t = x * x + y * y + z2;
         return 1 / (area * t * t);
     }
@@ -86,7 +86,7 @@ double SmithSurface::lambda(Vec3 w) const {
     const double alpha_sin = std::sqrt(x * x + y * y);
     if (alpha_sin == 0) return 0;
     const double a = w.z / alpha_sin;  // 1 / (alpha tan theta)
-    if (distribution == SlopeDistribution::Ggx) {
+    if (distribution == SlopeFamily::Ggx) {
         // (-1 + sqrt(1 + 1 / a^2)) / 2, without cancellation for large a.
         const double t = 1 / a;
         return 0.5 * t * (t / (1 + std::hypot(1.0, t)));
@@ -102,8 +102,8 @@ double SmithSurface::visible_normal_density(Vec3 w, Vec3 wm) const {
 Vec3 SmithSurface::sample_visible_normal(Vec3 w, double u1, double u2) const {
     // Stretch to alpha = 1, sample there, and stretch the slopes back.
     const Vec3 stretched = normalize({alpha_x * w.x, alpha_y * w.y, w.z});
-    const Vec3 m = distribution == SlopeDistribution::Ggx ? sample_unit_ggx(stretched, u1, u2)
-                                                          : sample_unit_beckmann(stretched, u1, u2);
+    const Vec3 m = distribution == SlopeFamily::Ggx ? sample_unit_ggx(stretched, u1, u2)
+                                                    : sample_unit_beckmann(stretched, u1, u2);
     return normalize({alpha_x * m.x, alpha_y * m.y, std::max(0.0, m.z)});
 }
 

@@ -2,11 +2,9 @@
 #pragma once
 
 #include <asperity/core/vec.h>
+#include <asperity/surface/slope_distribution.h>
 
 namespace asperity {
-
-/// Shape of the distribution of microfacet slopes.
-enum class SlopeDistribution { Ggx, Beckmann };
 
 /// Statistics of a rough surface in Smith's sense: how its facets are tilted and how much they hide
 /// each other.
@@ -16,7 +14,7 @@ enum class SlopeDistribution { Ggx, Beckmann };
 /// masking-shadowing function in microfacet-based BRDFs", JCGT 3(2), equations by their number
 /// there. Directions are unit vectors with z > 0 unless said otherwise.
 struct SmithSurface {
-    SlopeDistribution distribution = SlopeDistribution::Ggx;
+    SlopeFamily distribution = SlopeFamily::Ggx;
     double alpha_x = 0.5, alpha_y = 0.5;
 
     /// D(wm) [1/sr]: area of facets with normal wm per projected area; D cos(theta_m) integrates

@@ -9,29 +9,29 @@
 namespace asperity {
 namespace {
 
-constexpr SlopeDistribution kBoth[] = {SlopeDistribution::Ggx, SlopeDistribution::Beckmann};
+constexpr SlopeFamily kBoth[] = {SlopeFamily::Ggx, SlopeFamily::Beckmann};
 
 /// Lambda of an isotropic surface of alpha = 1 at a = 1 / (alpha tan theta).
-double lambda_at(SlopeDistribution distribution, double a) {
+double lambda_at(SlopeFamily distribution, double a) {
     return SmithSurface{distribution, 1, 1}.lambda(from_spherical(std::atan(1 / a), 0.7));
 }
 
 TEST(SmithTest, LambdaHasTheKnownValues) {
     // Heitz 2014 eq. 83 and 86, evaluated by hand; GGX at a = 1 is (sqrt(2) - 1) / 2.
-    EXPECT_NEAR(lambda_at(SlopeDistribution::Ggx, 1), (std::sqrt(2.0) - 1) / 2, 1e-15);
-    EXPECT_NEAR(lambda_at(SlopeDistribution::Ggx, 0.1), 4.524938, 5e-7);
-    EXPECT_NEAR(lambda_at(SlopeDistribution::Ggx, 0.25), 1.561553, 5e-7);
-    EXPECT_NEAR(lambda_at(SlopeDistribution::Ggx, 0.5), 0.618034, 5e-7);
-    EXPECT_NEAR(lambda_at(SlopeDistribution::Ggx, 1.6), 0.089624, 5e-7);
-    EXPECT_NEAR(lambda_at(SlopeDistribution::Beckmann, 0.1), 2.34911, 5e-6);
-    EXPECT_NEAR(lambda_at(SlopeDistribution::Beckmann, 0.25), 0.698177, 5e-7);
-    EXPECT_NEAR(lambda_at(SlopeDistribution::Beckmann, 0.5), 0.199641, 5e-7);
-    EXPECT_NEAR(lambda_at(SlopeDistribution::Beckmann, 1), 0.025127, 5e-7);
-    EXPECT_NEAR(lambda_at(SlopeDistribution::Beckmann, 1.6), 0.001804, 5e-7);
+    EXPECT_NEAR(lambda_at(SlopeFamily::Ggx, 1), (std::sqrt(2.0) - 1) / 2, 1e-15);
+    EXPECT_NEAR(lambda_at(SlopeFamily::Ggx, 0.1), 4.524938, 5e-7);
+    EXPECT_NEAR(lambda_at(SlopeFamily::Ggx, 0.25), 1.561553, 5e-7);
+    EXPECT_NEAR(lambda_at(SlopeFamily::Ggx, 0.5), 0.618034, 5e-7);
+    EXPECT_NEAR(lambda_at(SlopeFamily::Ggx, 1.6), 0.089624, 5e-7);
+    EXPECT_NEAR(lambda_at(SlopeFamily::Beckmann, 0.1), 2.34911, 5e-6);
+    EXPECT_NEAR(lambda_at(SlopeFamily::Beckmann, 0.25), 0.698177, 5e-7);
+    EXPECT_NEAR(lambda_at(SlopeFamily::Beckmann, 0.5), 0.199641, 5e-7);
+    EXPECT_NEAR(lambda_at(SlopeFamily::Beckmann, 1), 0.025127, 5e-7);
+    EXPECT_NEAR(lambda_at(SlopeFamily::Beckmann, 1.6), 0.001804, 5e-7);
 }
 
 TEST(SmithTest, LambdaEnds) {
-    for (const SlopeDistribution d : kBoth) {
+    for (const SlopeFamily d : kBoth) {
         const SmithSurface s{d, 0.3, 0.6};
         EXPECT_EQ(s.lambda({0, 0, 1}), 0);
         EXPECT_EQ(s.g1({1, 0, 0}), 0);
@@ -57,7 +57,7 @@ double over_hemisphere(F&& f) {
 
 TEST(SmithTest, FacetsProjectToTheWholePlane) {
     // Heitz 2014 eq. 6: the facets' projections onto the plane fill it.
-    for (const SlopeDistribution d : kBoth) {
+    for (const SlopeFamily d : kBoth) {
         const SmithSurface s{d, 0.3, 0.6};
         EXPECT_NEAR(over_hemisphere([&](Vec3 m) { return s.normal_density(m) * m.z; }), 1, 1e-4);
     }
@@ -66,7 +66,7 @@ TEST(SmithTest, FacetsProjectToTheWholePlane) {
 TEST(SmithTest, VisibleNormalsAreADensity) {
     // Heitz 2014 eq. 14: what a direction sees of the facets is its own projection of the plane.
     // This ties Lambda to D: neither can be wrong alone.
-    for (const SlopeDistribution d : kBoth)
+    for (const SlopeFamily d : kBoth)
         for (const double theta_deg : {0.0, 40.0, 75.0}) {
             const SmithSurface s{d, 0.4, 0.7};
             const Vec3 w = from_spherical(radians(theta_deg), 0.4);
@@ -78,18 +78,18 @@ TEST(SmithTest, VisibleNormalsAreADensity) {
 
 TEST(SmithTest, DensityOnTheNormalAxis) {
     // D = 1 / (pi alpha_x alpha_y) at wm = z for both.
-    for (const SlopeDistribution d : kBoth)
+    for (const SlopeFamily d : kBoth)
         EXPECT_NEAR((SmithSurface{d, 0.5, 0.25}.normal_density({0, 0, 1})), 8 / kPi, 1e-12);
-    EXPECT_EQ((SmithSurface{SlopeDistribution::Beckmann, 0.5, 0.5}.normal_density({1, 0, 0})), 0);
+    EXPECT_EQ((SmithSurface{SlopeFamily::Beckmann, 0.5, 0.5}.normal_density({1, 0, 0})), 0);
     // Slope 1 along x, alpha = 1: GGX 1 / (pi (1/2 + 1/2)^2); Beckmann exp(-1) / (pi / 4).
     const Vec3 m = {std::sqrt(0.5), 0, std::sqrt(0.5)};
-    EXPECT_NEAR((SmithSurface{SlopeDistribution::Ggx, 1, 1}.normal_density(m)), 1 / kPi, 1e-12);
-    EXPECT_NEAR((SmithSurface{SlopeDistribution::Beckmann, 1, 1}.normal_density(m)),
+    EXPECT_NEAR((SmithSurface{SlopeFamily::Ggx, 1, 1}.normal_density(m)), 1 / kPi, 1e-12);
+    EXPECT_NEAR((SmithSurface{SlopeFamily::Beckmann, 1, 1}.normal_density(m)),
                 4 * std::exp(-1.0) / kPi, 1e-12);
 }
 
 TEST(SmithTest, SampledNormalsStayInTheUpperHemisphere) {
-    for (const SlopeDistribution d : kBoth)
+    for (const SlopeFamily d : kBoth)
         for (const double theta_deg : {0.0, 45.0, 89.9}) {
             const SmithSurface s{d, 0.9, 0.2};
             const Vec3 w = from_spherical(radians(theta_deg), 1);

@@ -139,7 +139,7 @@ std::unique_ptr<Brdf> parse_cook_torrance(const std::string& spec, std::string_v
 }
 
 std::unique_ptr<Brdf> parse_microfacet(const std::string& spec, std::string_view settings,
-                                       SlopeDistribution distribution) {
+                                       SlopeFamily distribution) {
     const SpecReader reader(
         spec, settings,
         {"alpha", "alpha_y", "masking", "fresnel", "f0", "ior", "k", "material", "wavelengths"});
@@ -176,9 +176,8 @@ std::unique_ptr<Brdf> parse_brdf_spec(const std::string& spec) {
     try {
         if (model == "lambert") return parse_lambert(spec, settings);
         if (model == "cook-torrance") return parse_cook_torrance(spec, settings);
-        if (model == "ggx") return parse_microfacet(spec, settings, SlopeDistribution::Ggx);
-        if (model == "beckmann")
-            return parse_microfacet(spec, settings, SlopeDistribution::Beckmann);
+        if (model == "ggx") return parse_microfacet(spec, settings, SlopeFamily::Ggx);
+        if (model == "beckmann") return parse_microfacet(spec, settings, SlopeFamily::Beckmann);
     } catch (const Error& e) {
         if (e.where() == spec) throw;
         // The models know their settings; the user knows the specification.

@@ -17,8 +17,8 @@ namespace {
 constexpr int kRowsPerBlock = 32;
 
 /// Length r of the stretched slope below which a share u of the facets lies.
-double quantile(SlopeLaw::Family family, double u) {
-    if (family == SlopeLaw::Family::Beckmann) return std::sqrt(-std::log1p(-u));
+double quantile(SlopeFamily family, double u) {
+    if (family == SlopeFamily::Beckmann) return std::sqrt(-std::log1p(-u));
     return std::sqrt(u / (1 - u));
 }
 

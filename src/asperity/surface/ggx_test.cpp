@@ -24,8 +24,8 @@ SurfaceSettings ggx(int size, double alpha_x, double alpha_y, double length = 8)
 }
 
 double distance(const SurfaceSettings& s, const Heightfield& surface) {
-    return slope_distribution_distance(
-        surface, {SlopeLaw::Family::Ggx, s.alpha_x, s.alpha_y, s.max_slope}, 2);
+    return slope_distribution_distance(surface,
+                                       {SlopeFamily::Ggx, s.alpha_x, s.alpha_y, s.max_slope}, 2);
 }
 
 /// Share of facets whose slope along x (or y) is smaller than `limit`.
@@ -51,7 +51,7 @@ TEST(Ggx, SlopeLengthsFollowTheLaw) {
 TEST(Ggx, DistanceAgreesWithSortedLengths) {
     const SurfaceSettings settings = ggx(128, 0.5, 0.3, 4);
     const Heightfield surface = make(settings);
-    const SlopeLaw law{SlopeLaw::Family::Beckmann, 0.4, 0.4};
+    const SlopeLaw law{SlopeFamily::Beckmann, 0.4, 0.4};
     std::vector<double> lengths;
     for (const Slope s : testing::all_slopes(surface))
         lengths.push_back(std::hypot(s.x, s.y) / 0.4);
@@ -139,7 +139,7 @@ TEST(ImposeSlopeLaw, TurnsNoiseIntoBeckmann) {
     SurfaceSettings settings = settings_of(SurfaceKind::Thesis, 256);
     settings.roughness = 0.05;
     Heightfield surface = make(settings);
-    const SlopeLaw law{SlopeLaw::Family::Beckmann, 0.3, 0.3};
+    const SlopeLaw law{SlopeFamily::Beckmann, 0.3, 0.3};
     EXPECT_GT(slope_distribution_distance(surface, law, 2), 0.02);
     asperity::Run run(2);
     impose_slope_law(surface, law, 8, run);

@@ -60,7 +60,7 @@ void fill(Heightfield& surface, const SurfaceSettings& s, Run& run) {
             break;
         case SurfaceKind::Ggx:
             fill_gaussian(surface, spectrum_of(s, surface.dy, run), rms_gradient, s.seed, run);
-            impose_slope_law(surface, {SlopeLaw::Family::Ggx, s.alpha_x, s.alpha_y, s.max_slope},
+            impose_slope_law(surface, {SlopeFamily::Ggx, s.alpha_x, s.alpha_y, s.max_slope},
                              kGgxRounds, run);
             break;
         default:

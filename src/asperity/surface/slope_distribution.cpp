@@ -35,7 +35,7 @@ double SlopeLaw::stretched_length(Slope s) const {
 }
 
 double SlopeLaw::cumulative(double r) const {
-    if (family == Family::Beckmann) return -std::expm1(-r * r);
+    if (family == SlopeFamily::Beckmann) return -std::expm1(-r * r);
     return std::isinf(r) ? 1.0 : r * r / (1 + r * r);
 }
 

@@ -8,6 +8,9 @@
 
 namespace asperity {
 
+/// Shape of a distribution of microfacet slopes.
+enum class SlopeFamily { Beckmann, Ggx };
+
 /// A law of facet slopes: the slope stretched to s = (slope_x / alpha_x, slope_y / alpha_y) has a
 /// uniform azimuth, and its length r the cumulative distribution
 /// - Beckmann: 1 - exp(-r^2), a Gaussian of standard deviation alpha / sqrt2 per axis;
@@ -16,8 +19,7 @@ namespace asperity {
 /// 5.2 (sampling equations 28 and 35, with tan theta_m = alpha r); anisotropy by stretching: Heitz
 /// 2014, "Understanding the masking-shadowing function", JCGT 3(2) (stretch invariance).
 struct SlopeLaw {
-    enum class Family { Beckmann, Ggx };
-    Family family = Family::Ggx;
+    SlopeFamily family = SlopeFamily::Ggx;
     double alpha_x = 0.3, alpha_y = 0.3;
     /// Slopes are cut here; beyond, the law is not compared.
     double max_slope = std::numeric_limits<double>::infinity();

@@ -40,8 +40,8 @@ TEST(LengthHistogram, SharesAreRanks) {
 }
 
 TEST(SlopeLaw, CumulativeDistributions) {
-    const SlopeLaw beckmann{SlopeLaw::Family::Beckmann, 0.5, 0.25};
-    const SlopeLaw ggx{SlopeLaw::Family::Ggx, 0.5, 0.25};
+    const SlopeLaw beckmann{SlopeFamily::Beckmann, 0.5, 0.25};
+    const SlopeLaw ggx{SlopeFamily::Ggx, 0.5, 0.25};
     EXPECT_NEAR(beckmann.stretched_length({0.3, -0.2}), 1.0, 1e-15);  // (0.6, -0.8)
     EXPECT_NEAR(beckmann.cumulative(1), 1 - std::exp(-1.0), 1e-15);
     EXPECT_EQ(ggx.cumulative(1), 0.5);
@@ -53,14 +53,14 @@ TEST(SlopeLaw, CumulativeDistributions) {
 // law on either side of it.
 TEST(SlopeDistance, OfASingleLength) {
     const Heightfield surface = make(settings_of(SurfaceKind::VGroove, 32));
-    const SlopeLaw law{SlopeLaw::Family::Ggx, 0.5, 0.5};  // F(2) = 0.8
+    const SlopeLaw law{SlopeFamily::Ggx, 0.5, 0.5};  // F(2) = 0.8
     EXPECT_NEAR(slope_distribution_distance(surface, law, 2), 0.8, 2e-4);
     // Cut at slope 0.5 only lengths up to 1 count: no facet there, the law has F(1) = 0.5
-    const SlopeLaw cut{SlopeLaw::Family::Ggx, 0.5, 0.5, 0.5};
+    const SlopeLaw cut{SlopeFamily::Ggx, 0.5, 0.5, 0.5};
     EXPECT_NEAR(slope_distribution_distance(surface, cut, 2), 0.5, 2e-4);
     // Along x a slope cut at 0.75 has length 0.75 / 0.5 = 1.5, along y 3: compared up to the
     // smaller
-    const SlopeLaw oblong{SlopeLaw::Family::Ggx, 0.5, 0.25, 0.75};
+    const SlopeLaw oblong{SlopeFamily::Ggx, 0.5, 0.25, 0.75};
     EXPECT_NEAR(slope_distribution_distance(surface, oblong, 2), 2.25 / 3.25, 2e-4);
 }
 
@@ -70,9 +70,8 @@ TEST(SlopeDistance, TellsBeckmannFromGgx) {
     SurfaceSettings settings = settings_of(SurfaceKind::Gaussian, 1024);
     settings.correlation_x = settings.correlation_y = 4;
     const Heightfield surface = make(settings);
-    EXPECT_LT(slope_distribution_distance(surface, {SlopeLaw::Family::Beckmann, 0.3, 0.3}, 2),
-              0.004);
-    EXPECT_NEAR(slope_distribution_distance(surface, {SlopeLaw::Family::Ggx, 0.3, 0.3}, 2), 0.2035,
+    EXPECT_LT(slope_distribution_distance(surface, {SlopeFamily::Beckmann, 0.3, 0.3}, 2), 0.004);
+    EXPECT_NEAR(slope_distribution_distance(surface, {SlopeFamily::Ggx, 0.3, 0.3}, 2), 0.2035,
                 0.004);
 }
 
