@@ -23,11 +23,11 @@ MAY_SEE = {
     "gonio": {"core", "optics", "surface", "tracing"},
     "brdf": {"core", "optics", "surface", "tracing", "gonio"},
     "render": {"core", "optics", "surface", "tracing", "brdf"},
-    "io": {"core", "optics", "surface", "tracing", "gonio", "brdf"},
+    "io": {"core", "optics", "surface", "tracing", "gonio", "brdf", "render"},
 }
 
 # First folder, or the whole name, of the headers that apps must leave to the library.
-NUMERICS = {"Eigen", "unsupported", "Random123", "embree3", "tbb", "oneapi", "hwy"}
+NUMERICS = {"Eigen", "unsupported", "Random123", "assimp", "embree3", "tbb", "oneapi", "hwy"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 

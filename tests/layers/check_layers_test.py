@@ -41,7 +41,7 @@ class Layers(unittest.TestCase):
         for module, target in (("core", "surface"), ("surface", "optics"), ("optics", "surface"),
                                ("surface", "tracing"), ("tracing", "gonio"), ("gonio", "brdf"),
                                ("brdf", "render"), ("render", "gonio"), ("gonio", "io"),
-                               ("io", "render"), ("core", "apps")):
+                               ("render", "io"), ("core", "apps")):
             with self.subTest(module=module, target=target):
                 name = f"src/asperity/{module}/wrong.cpp"
                 self.assertEqual(len(self.complaints_about(name, f"<asperity/{target}/a.h>")), 1)

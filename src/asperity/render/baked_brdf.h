@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/brdf/brdf.h>
+#include <asperity/core/run.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace asperity {
+
+/// How finely bake_brdf tabulates; 0: as fine as the lobe needs, from its narrowest width.
+struct BakeSettings {
+    int theta_nodes = 0;  ///< incident polar angles, 8 .. 256, denser towards the horizon
+    int phi_nodes = 0;    ///< incident azimuths when not isotropic, 8 .. 128
+    int resolution = 0;   ///< half vectors on a side of the square, 16 .. 512
+};
+
+/// Any Brdf as one table made to be shaded with: evaluated in a few dozen nanoseconds, however dear
+/// the original (a measured one takes a microsecond), and sampled with a matching density.
+///
+/// f (cos_i + cos_o), smooth where f is not, in floats over (theta_i [, phi_i], half vector); the
+/// half vector on a square by a map without trigonometry. Linear in all of them. Sampling draws a
+/// half vector from the table of the nearest smaller or larger theta_i, at random in proportion,
+/// and one in ten directions from a cosine.
+///
+/// albedo() is that of the original; the integral of f cos(theta_o) agrees with it within 1e-3 at
+/// every theta_i up to 85 degrees, per channel. Channels are the original's, 1 or 3. 4 bytes a
+/// value and channel, 8 a value for the sampling: a few megabytes when isotropic.
+class BakedBrdf final : public Brdf {
+  public:
+    int channels() const override { return channels_; }
+    std::string name() const override { return name_; }  ///< of the original
+    void eval(Vec3 wi, Vec3 wo, std::span<double> f) const override;
+    std::optional<BrdfSample> sample(Vec3 wi, double u1, double u2) const override;
+    double pdf(Vec3 wi, Vec3 wo) const override;
+    void albedo(Vec3 wi, std::span<double> a) const override;
+    bool isotropic() const override { return isotropic_; }
+
+    /// eval() and pdf(), which is returned, in one look at the table.
+    double eval_pdf(Vec3 wi, Vec3 wo, std::span<double> f) const;
+
+  private:
+    friend std::shared_ptr<const BakedBrdf> bake_brdf(const Brdf&, Run&, const BakeSettings&);
+    struct Tables;
+
+    BakedBrdf() = default;
+    int channels_ = 1;
+    bool isotropic_ = true;
+    std::string name_;
+    std::shared_ptr<const Tables> tables_;
+};
+
+/// Bakes a Brdf on run.threads() threads: the same bits for any number. The stage is "preparing the
+/// BRDF"; takes about a second. Throws Error(Usage, "brdf") for other than 1 or 3 channels,
+/// Error(Stopped).
+std::shared_ptr<const BakedBrdf> bake_brdf(const Brdf& brdf, Run& run,
+                                           const BakeSettings& settings = {});
+
+}  // namespace asperity
