@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/surface/heightfield.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace asperity {
+
+/// A heightfield laid out for the wide march: a copy with kMargin samples of the neighbouring tiles
+/// on every side, so that a walk of a few cells never has to ask where the tile ends.
+///
+/// Always with Diagonal::Anti: a surface with the main diagonal is copied mirrored in x, and
+/// `mirrored()` says so; whoever uses it mirrors the x of directions and positions. A tile shorter
+/// than kShortest cells is repeated until it is long enough, so cells_x() may be a multiple of the
+/// surface's. The margin of a finite patch lies at kFarBelow: nothing is ever hit there.
+class PaddedHeights {
+  public:
+    static constexpr int kMargin = 32;
+    static constexpr int kShortest = 64;
+    static constexpr float kFarBelow = -1e30f;
+
+    PaddedHeights(const Heightfield& surface, int threads);
+
+    int cells_x() const { return cells_x_; }
+    int cells_y() const { return cells_y_; }
+    bool periodic() const { return periodic_; }
+    bool mirrored() const { return mirrored_; }
+    double dx() const { return dx_; }
+    double dy() const { return dy_; }
+    float max_height() const { return max_height_; }
+    float min_height() const { return min_height_; }
+
+    /// Samples from one row to the next. Not a power of two, so that rows do not fight for the same
+    /// cache lines.
+    int pitch() const { return pitch_; }
+    /// Sample (0, 0). Sample (i, j) is at origin()[j * pitch() + i] for -kMargin <= i <= cells_x()
+    /// + kMargin, the same for j.
+    const float* origin() const {
+        return heights_.data() + static_cast<std::ptrdiff_t>(kMargin) * pitch_ + kMargin;
+    }
+    float at(int i, int j) const { return origin()[static_cast<std::ptrdiff_t>(j) * pitch_ + i]; }
+    std::size_t memory_bytes() const { return heights_.size() * sizeof(float); }
+
+  private:
+    int cells_x_, cells_y_, pitch_ = 0;
+    bool periodic_, mirrored_;
+    double dx_, dy_;
+    float max_height_ = 0, min_height_ = 0;
+    std::vector<float> heights_;
+};
+
+}  // namespace asperity
