@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/error.h>
 #include <asperity/core/version.h>
-#include <asperity/io/atomic_file.h>
+#include <asperity/io/exr_stream.h>
 #include <asperity/io/pictures.h>
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 #include <ImfFloatVectorAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfIntAttribute.h>
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputPart.h>
@@ -19,53 +18,12 @@
 #include <ImfStringVectorAttribute.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 #include <set>
 
 namespace asperity::io {
 
 namespace {
-
-/// A file for OpenEXR to write to. OpenEXR writes its tables of offsets while it closes a file and
-/// keeps silent about what goes wrong then; this stream remembers.
-class ExrStream : public Imf::OStream {
-  public:
-    explicit ExrStream(const std::string& path)
-        : Imf::OStream(path.c_str()), file_(std::fopen(path.c_str(), "wb"), &std::fclose) {
-        note(file_ != nullptr);
-    }
-
-    void write(const char bytes[], int count) override {
-        const auto size = static_cast<std::size_t>(count);
-        if (file_) note(std::fwrite(bytes, 1, size, file_.get()) == size);
-        if (error_ != 0) throw Iex::ErrnoExc(std::strerror(error_));
-    }
-    std::uint64_t tellp() override {
-        return file_ ? static_cast<std::uint64_t>(std::ftell(file_.get())) : 0;
-    }
-    void seekp(std::uint64_t position) override {
-        if (file_) note(std::fseek(file_.get(), static_cast<long>(position), SEEK_SET) == 0);
-        if (error_ != 0) throw Iex::ErrnoExc(std::strerror(error_));
-    }
-
-    /// Closes the file. The first error of all, as errno, or 0.
-    int close() {
-        if (file_) note(std::fclose(file_.release()) == 0);
-        return error_;
-    }
-
-  private:
-    void note(bool fine) {
-        if (!fine && error_ == 0) error_ = errno != 0 ? errno : EIO;
-    }
-
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
-    int error_ = 0;
-};
 
 /// Names of the channels of f: Y for one; R, G, B; and for wavelengths the names of Fichet et al.
 /// 2021, "An OpenEXR layout for spectral images": "T.550,000000nm".
@@ -224,7 +182,7 @@ void write_part(Imf::MultiPartOutputFile& file, int part, const Measurement& m,
     output.writePixels(m.detector.rows());
 }
 
-void write_parts(ExrStream& stream, const Measurement& m) {
+void write_parts(Imf::OStream& stream, const Measurement& m) {
     const std::vector<std::string> names = part_names(m);
     std::vector<Imf::Header> headers;
     for (std::size_t k = 0; k < m.layers.size(); ++k)
@@ -239,21 +197,7 @@ void write_parts(ExrStream& stream, const Measurement& m) {
 void write_layers_exr(const Measurement& measurement, const std::string& path) {
     if (measurement.layers.empty())
         throw Error(ErrorCode::Usage, "there is no layer to write", path);
-    AtomicFile file(path);
-    ExrStream stream(file.temporary_path());
-    std::string reason;
-    try {
-        write_parts(stream, measurement);
-    } catch (const std::bad_alloc&) {
-        throw Error(ErrorCode::OutOfMemory, "no memory to write the layers", path);
-    } catch (const std::exception& error) {  // OpenEXR throws Iex::BaseExc
-        reason = error.what();
-    }
-    const int failure = stream.close();
-    if (failure != 0) reason = std::strerror(failure);
-    if (!reason.empty())
-        throw Error(ErrorCode::InputOutput, fmt::format("cannot write the EXR ({})", reason), path);
-    file.commit();
+    write_exr(path, [&](Imf::OStream& stream) { write_parts(stream, measurement); });
 }
 
 }  // namespace asperity::io

@@ -14,14 +14,18 @@ namespace asperity::io {
 /// order; and what came out (samples, noise, version). Enough to make the picture again.
 using Provenance = std::vector<std::pair<std::string, std::string>>;
 
+/// The same under the names they have in files: "asperity:NAME"; a name that comes again, such as
+/// that of an option given twice, is "asperity:NAME.2", "asperity:NAME.3", ...
+Provenance labelled(const Provenance& provenance);
+
 // Files appear whole or not at all (AtomicFile). Throw Error(InputOutput, path).
 
 /// Linear radiance as floats: R, G, B, and `stderr.Y`, the standard error of the luminance; ZIP.
-/// Provenance as string attributes "asperity:NAME", the seed and samples among them.
+/// Provenance as string attributes, see labelled().
 void write_render_exr(const Film& film, const Provenance& provenance, const std::string& path);
 
 /// 8-bit PNG through the tone mapping, with an sRGB chunk, or gAMA when the transfer is another.
-/// Provenance as text chunks "asperity:NAME".
+/// Provenance as text chunks, see labelled(); names of at most 79 bytes.
 void write_render_png(const Film& film, const ToneMapping& mapping, const Provenance& provenance,
                       const std::string& path);
 
