@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/directions.h>
+#include <asperity/render/colour.h>
 #include <asperity/render/perez_sky.h>
-#include <asperity/render/sun.h>
 
 #include <algorithm>
 #include <cmath>
@@ -56,8 +56,7 @@ double PerezTerms::gradient(double cos_theta) const {
     return 1 + a * std::exp(b / std::max(cos_theta, 0.0));
 }
 
-double PerezTerms::glow(double gamma) const {
-    const double cos_gamma = std::cos(gamma);
+double PerezTerms::glow(double gamma, double cos_gamma) const {
     return 1 + c * std::exp(d * gamma) + e * cos_gamma * cos_gamma;
 }
 
@@ -67,23 +66,23 @@ PerezSky::PerezSky(double sun_theta, double turbidity)
       y_(y_terms(turbidity)),
       zenith_(zenith_colour(sun_theta, turbidity)) {
     const auto at_zenith = [&](const PerezTerms& terms) {
-        return terms.gradient(1) * terms.glow(sun_theta);
+        return terms.gradient(1) * terms.glow(sun_theta, std::cos(sun_theta));
     };
     scale_ = {zenith_.luminance / at_zenith(luminance_), zenith_.x / at_zenith(x_),
               zenith_.y / at_zenith(y_)};
 }
 
-SkyColour PerezSky::colour(double cos_theta, double gamma) const {
-    return {scale_.luminance * luminance_.gradient(cos_theta) * luminance_.glow(gamma),
-            scale_.x * x_.gradient(cos_theta) * x_.glow(gamma),
-            scale_.y * y_.gradient(cos_theta) * y_.glow(gamma)};
+SkyColour PerezSky::colour(double cos_theta, double cos_gamma) const {
+    const double gamma = std::acos(std::clamp(cos_gamma, -1.0, 1.0));
+    return {scale_.luminance * luminance_.gradient(cos_theta) * luminance_.glow(gamma, cos_gamma),
+            scale_.x * x_.gradient(cos_theta) * x_.glow(gamma, cos_gamma),
+            scale_.y * y_.gradient(cos_theta) * y_.glow(gamma, cos_gamma)};
 }
 
-Rgb PerezSky::radiance(double cos_theta, double gamma) const {
-    const SkyColour c = colour(cos_theta, gamma);
+Rgb PerezSky::radiance(double cos_theta, double cos_gamma) const {
+    const SkyColour c = colour(cos_theta, cos_gamma);
     const double sum = c.luminance / c.y;  // X + Y + Z
-    const Rgb rgb = rgb_of_xyz(sum * c.x, c.luminance, sum * (1 - c.x - c.y));
-    return {std::max(rgb.r, 0.0), std::max(rgb.g, 0.0), std::max(rgb.b, 0.0)};
+    return rgb_of_xyz(sum * c.x, c.luminance, sum * (1 - c.x - c.y));
 }
 
 }  // namespace asperity

@@ -16,13 +16,13 @@ struct PerezTerms {
     double a = 0, b = 0, c = 0, d = 0, e = 0;
 
     double gradient(double cos_theta) const;
-    double glow(double gamma) const;
+    double glow(double gamma, double cos_gamma) const;
 };
 
 /// The sky of Preetham, Shirley and Smits 1999, appendix A2, as seen from the ground.
 ///
 /// Fitted for turbidities of 2 to 10. Near the horizon and for a low sun some colours lie outside
-/// sRGB: radiance() cuts what is negative.
+/// sRGB: radiance() makes them paler (see rgb_of_xyz).
 class PerezSky {
   public:
     /// `sun_theta`: angle of the sun from the zenith [rad], 0 .. pi/2.
@@ -30,10 +30,10 @@ class PerezSky {
 
     SkyColour zenith() const { return zenith_; }
 
-    /// Towards a direction at `cos_theta` >= 0 from the zenith and `gamma` [rad] from the sun.
-    SkyColour colour(double cos_theta, double gamma) const;
+    /// Towards a direction, by the cosines of its angles from the zenith, >= 0, and from the sun.
+    SkyColour colour(double cos_theta, double cos_gamma) const;
     /// The same in linear sRGB, its luminance in kcd/m^2.
-    Rgb radiance(double cos_theta, double gamma) const;
+    Rgb radiance(double cos_theta, double cos_gamma) const;
 
   private:
     PerezTerms luminance_, x_, y_;

@@ -67,8 +67,7 @@ Rgb paint_sky(Image& map, int rows, const SkySettings& settings) {
         const double share = kPi / map.width * (upper * upper - lower * lower);
         for (int x = 0; x < map.width; ++x) {
             const Vec3 w = map_direction({(x + 0.5) / map.width, (y + 0.5) / map.height});
-            const double gamma = std::acos(std::clamp(dot(w, sun), -1.0, 1.0));
-            const Rgb seen = sky.radiance(w.y, gamma);
+            const Rgb seen = sky.radiance(w.y, dot(w, sun));
             set(map, x, y, seen);
             irradiance = irradiance + share * seen;
         }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/directions.h>
+#include <asperity/render/colour.h>
 #include <asperity/render/sun.h>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -110,13 +110,6 @@ class DiscLight final : public Light {
 
 }  // namespace
 
-Rgb rgb_of_xyz(double x, double y, double z) {
-    // IEC 61966-2-1
-    return {3.2404542 * x - 1.5371385 * y - 0.4985314 * z,
-            -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
-            0.0556434 * x - 0.2040259 * y + 1.0572252 * z};
-}
-
 Rgb sun_irradiance(double elevation, double turbidity) {
     // Mass of air: Kasten's formula, as in the paper
     const double zenith = 0.5 * kPi - elevation;
@@ -133,8 +126,7 @@ Rgb sun_irradiance(double elevation, double turbidity) {
         z += light * matching_z(nm);
     }
     constexpr double kKiloLumen = 683e-3 * kBand;  // of one watt at 555 nm, times the band
-    const Rgb colour = rgb_of_xyz(kKiloLumen * x, kKiloLumen * y, kKiloLumen * z);
-    return {std::max(colour.r, 0.0), std::max(colour.g, 0.0), std::max(colour.b, 0.0)};
+    return rgb_of_xyz(kKiloLumen * x, kKiloLumen * y, kKiloLumen * z);
 }
 
 std::unique_ptr<Light> make_disc_light(Vec3 direction, double diameter, Rgb irradiance,

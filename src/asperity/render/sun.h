@@ -8,9 +8,6 @@
 
 namespace asperity {
 
-/// Linear sRGB of a colour in CIE XYZ; what lies outside the primaries' triangle is negative.
-Rgb rgb_of_xyz(double x, double y, double z);
-
 /// Light of the sun through clear air on a plane that faces it [klx, as the luminance]: the
 /// spectrum outside the air (ASTM G173-03) through the transmittances of Preetham et al. 1999,
 /// appendix A1: Rayleigh scattering, aerosols and ozone. What oxygen and water vapour take lies
