@@ -4,6 +4,7 @@
 #include <asperity/core/run.h>
 #include <asperity/render/camera.h>
 #include <asperity/render/film.h>
+#include <asperity/render/light_choice.h>
 #include <asperity/render/render_settings.h>
 #include <asperity/render/scene.h>
 
@@ -55,7 +56,7 @@ class Renderer {
     Film film_;
     RayCounts rays_;
     std::vector<std::uint32_t> tile_samples_;  ///< row by row
-    std::vector<double> light_shares_;         ///< cumulated weights of the lights
+    LightChoice lights_;
 };
 
 /// How a render() ended.

@@ -51,6 +51,10 @@ class TracedModel {
     void intersect(std::span<const WorldRay> rays, std::span<Hit> hits) const;
     /// True when anything lies on the ray before `distance` (which may be infinite).
     bool occluded(const WorldRay& ray, double distance) const;
+    /// The same for many rays that run together, such as those of a tile to one point: hidden[k] is
+    /// 1 or 0. All three have one size.
+    void occluded(std::span<const WorldRay> rays, std::span<const double> distances,
+                  std::span<std::uint8_t> hidden) const;
 
     /// `hit` must have been found by `ray`.
     SurfacePoint surface(const WorldRay& ray, const Hit& hit) const;

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/render/wave.h>
+
+namespace asperity {
+
+/// Side of a tile [pixels].
+inline constexpr int kTileSide = 16;
+
+/// A rectangle of pixels.
+struct Tile {
+    int x = 0, y = 0, width = 0, height = 0;
+
+    std::uint64_t pixels() const {
+        return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    }
+};
+
+/// Tiles of a picture, counted row by row.
+struct TileGrid {
+    int width = 0, height = 0;  ///< of the picture
+
+    int columns() const { return (width + kTileSide - 1) / kTileSide; }
+    int rows() const { return (height + kTileSide - 1) / kTileSide; }
+    std::size_t count() const {
+        return static_cast<std::size_t>(columns()) * static_cast<std::size_t>(rows());
+    }
+    Tile tile(std::size_t k) const;
+};
+
+/// Takes sample `sample` of every pixel of a tile and adds it to the film.
+void render_tile(const View& view, const Tile& tile, std::uint32_t sample, Film& film,
+                 RayCounts& counts);
+
+}  // namespace asperity
