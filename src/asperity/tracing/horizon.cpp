@@ -47,7 +47,7 @@ Horizon::Horizon(const PaddedHeights& heights, int threads)
     const int rows = (heights.cells_y() + kCells - 1) / kCells;
     const auto count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
     parallel_for(count, threads, [&](std::size_t task) {
-        thread_local HorizonBlock block;
+        HorizonBlock block;
         const int i0 = static_cast<int>(task) % columns * kCells;
         const int j0 = static_cast<int>(task) / columns * kCells;
         block.load(heights, maxima, i0, j0);
@@ -55,17 +55,15 @@ Horizon::Horizon(const PaddedHeights& heights, int threads)
 
         // Keep the largest byte of the cells that share an entry
         for (int j = 0; j < block.cells_y; ++j) {
+            const std::uint8_t* row = &block.bytes[static_cast<std::size_t>(j * kSectors * kCells)];
             std::uint8_t* out = &bytes_[(static_cast<std::size_t>((j0 + j) >> pool_shift_) *
                                              static_cast<std::size_t>(pitch_) +
                                          static_cast<std::size_t>(i0 >> pool_shift_)) *
                                         kSectors];
             for (int i = 0; i < block.cells_x; ++i) {
-                for (int s = 0; s < kSectors; ++s) {
-                    std::uint8_t& entry = out[(i >> pool_shift_) * kSectors + s];
-                    entry = std::max(
-                        entry,
-                        block.bytes[static_cast<std::size_t>((s * kCells + j) * kCells + i)]);
-                }
+                std::uint8_t* entry = out + (i >> pool_shift_) * kSectors;
+                for (int s = 0; s < kSectors; ++s)
+                    entry[s] = std::max(entry[s], row[s * kCells + i]);
             }
         }
     });

@@ -60,7 +60,7 @@ struct HorizonBlock {
     std::vector<float> windows;    ///< highest point of the window starting at a cell
     std::vector<float> scratch;    ///< one row
     HorizonLevel near_tiles, wide_tiles;
-    std::vector<std::uint8_t> bytes;  ///< [(sector * kCells + j) * kCells + i]
+    std::vector<std::uint8_t> bytes;  ///< [(j * kSectors + sector) * kCells + i]
 
     HorizonBlock();
     /// Offset of sample (i, j) of the block in `samples`.

@@ -25,47 +25,46 @@ using V = hn::Vec<Tag>;
 constexpr Tag kTag;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(kTag));
 
-/// Several vectors at a time: constants are loaded once for all of them.
+/// Four vectors at a time: constants are loaded once for all of them.
 constexpr int kVectors = 4;
 constexpr int kWide = kVectors * kLanes;
 static_assert(Block::kCells % kWide == 0);
+/// No array: it would be kept in memory.
 struct Wide {
-    V v[kVectors];
+    V v0, v1, v2, v3;
 };
 
-template <class F>
-HWY_INLINE Wide map(const F& f) {
-    Wide result;
-    for (int n = 0; n < kVectors; ++n) result.v[n] = f(n);
-    return result;
+HWY_INLINE Wide fill(float value) {
+    const V v = hn::Set(kTag, value);
+    return {v, v, v, v};
 }
 HWY_INLINE Wide load(const float* from) {
-    return map([&](int n) HWY_ATTR { return hn::LoadU(kTag, from + n * kLanes); });
+    return {hn::LoadU(kTag, from), hn::LoadU(kTag, from + kLanes),
+            hn::LoadU(kTag, from + 2 * kLanes), hn::LoadU(kTag, from + 3 * kLanes)};
 }
 HWY_INLINE void store(const Wide& x, float* to) {
-    for (int n = 0; n < kVectors; ++n) hn::StoreU(x.v[n], kTag, to + n * kLanes);
-}
-HWY_INLINE Wide fill(float value) {
-    return map([&](int) HWY_ATTR { return hn::Set(kTag, value); });
+    hn::StoreU(x.v0, kTag, to);
+    hn::StoreU(x.v1, kTag, to + kLanes);
+    hn::StoreU(x.v2, kTag, to + 2 * kLanes);
+    hn::StoreU(x.v3, kTag, to + 3 * kLanes);
 }
 HWY_INLINE Wide operator+(const Wide& a, const Wide& b) {
-    return map([&](int n) HWY_ATTR { return hn::Add(a.v[n], b.v[n]); });
+    return {hn::Add(a.v0, b.v0), hn::Add(a.v1, b.v1), hn::Add(a.v2, b.v2), hn::Add(a.v3, b.v3)};
 }
 HWY_INLINE Wide operator-(const Wide& a, const Wide& b) {
-    return map([&](int n) HWY_ATTR { return hn::Sub(a.v[n], b.v[n]); });
-}
-HWY_INLINE Wide operator*(const Wide& a, float b) {
-    const V factor = hn::Set(kTag, b);
-    return map([&](int n) HWY_ATTR { return hn::Mul(a.v[n], factor); });
+    return {hn::Sub(a.v0, b.v0), hn::Sub(a.v1, b.v1), hn::Sub(a.v2, b.v2), hn::Sub(a.v3, b.v3)};
 }
 HWY_INLINE Wide operator*(const Wide& a, const Wide& b) {
-    return map([&](int n) HWY_ATTR { return hn::Mul(a.v[n], b.v[n]); });
+    return {hn::Mul(a.v0, b.v0), hn::Mul(a.v1, b.v1), hn::Mul(a.v2, b.v2), hn::Mul(a.v3, b.v3)};
+}
+HWY_INLINE Wide operator*(const Wide& a, float b) {
+    return a * fill(b);
 }
 HWY_INLINE Wide max(const Wide& a, const Wide& b) {
-    return map([&](int n) HWY_ATTR { return hn::Max(a.v[n], b.v[n]); });
+    return {hn::Max(a.v0, b.v0), hn::Max(a.v1, b.v1), hn::Max(a.v2, b.v2), hn::Max(a.v3, b.v3)};
 }
 HWY_INLINE Wide min(const Wide& a, const Wide& b) {
-    return map([&](int n) HWY_ATTR { return hn::Min(a.v[n], b.v[n]); });
+    return {hn::Min(a.v0, b.v0), hn::Min(a.v1, b.v1), hn::Min(a.v2, b.v2), hn::Min(a.v3, b.v3)};
 }
 
 /// The largest of `least` and the slopes from `viewer` to all the terms, whose offsets are in units
@@ -73,14 +72,8 @@ HWY_INLINE Wide min(const Wide& a, const Wide& b) {
 template <int kStride>
 HWY_INLINE Wide steepest(const HorizonTerms& terms, const float* from, const Wide& viewer,
                          Wide least) {
-    for (const HorizonTerm& term : terms) {
-        const V inverse = hn::Set(kTag, term.inverse);
-        const float* heights = from + term.offset * kStride;
-        for (int n = 0; n < kVectors; ++n) {
-            const V above = hn::Sub(hn::LoadU(kTag, heights + n * kLanes), viewer.v[n]);
-            least.v[n] = hn::Max(least.v[n], hn::Mul(above, inverse));
-        }
-    }
+    for (const HorizonTerm& term : terms)
+        least = max(least, (load(from + term.offset * kStride) - viewer) * term.inverse);
     return least;
 }
 
@@ -263,13 +256,15 @@ class Viewers {
         // By the mean value theorem, no slope within the nearest cells exceeds the steepest facet's
         const Wide least = max(fill(0), between(edges.steepest[k], edges.steepest[k + 1]));
         const Wide plane = between(edges.plane[k], edges.plane[k + 1]);
-        Wide slope =
-            max(least, plane + steepest<kWide>(sector.plane, above_plane_, fill(0), fill(0)));
-
         // A path at least as steep as `least`, from wherever it starts, passes above this height
         // where it leaves the cell
         Wide viewer = corner_[0] + least * sector.back[0];
         for (int v = 1; v < 4; ++v) viewer = min(viewer, corner_[v] + least * sector.back[v]);
+        const Wide tilted = plane + steepest<kWide>(sector.plane, above_plane_, fill(0), fill(0));
+        Wide level = steepest<1>(sector.close_front, samples_, viewer, least);
+        level = steepest<1>(sector.close_blunt, samples_, lowest_, level);
+
+        Wide slope = max(least, min(tilted, level));
         slope = steepest<1>(sector.front, samples_, viewer, slope);
         slope = steepest<1>(sector.window_front, windows_, viewer, slope);
         slope = steepest<1>(sector.blunt, samples_, lowest_, slope);
@@ -330,10 +325,14 @@ HWY_INLINE void store_bytes(const Wide& slope, float margin, std::uint8_t* out) 
     const Wide safe = max(slope * kRelative + fill(margin), fill(0)) * (1 / Horizon::kStep);
     const hn::Rebind<std::int32_t, Tag> integers;
     const hn::Rebind<std::uint8_t, Tag> bytes;
-    for (int n = 0; n < kVectors; ++n) {
-        const V steps = hn::Min(hn::Ceil(hn::Sqrt(safe.v[n])), hn::Set(kTag, 255.0f));
-        hn::StoreU(hn::DemoteTo(bytes, hn::ConvertTo(integers, steps)), bytes, out + n * kLanes);
-    }
+    const auto store_one = [&](V steps, int n) HWY_ATTR {
+        const V whole = hn::Min(hn::Ceil(hn::Sqrt(steps)), hn::Set(kTag, 255.0f));
+        hn::StoreU(hn::DemoteTo(bytes, hn::ConvertTo(integers, whole)), bytes, out + n * kLanes);
+    };
+    store_one(safe.v0, 0);
+    store_one(safe.v1, 1);
+    store_one(safe.v2, 2);
+    store_one(safe.v3, 3);
 }
 
 }  // namespace
@@ -355,7 +354,7 @@ void bound_block(const HorizonGeometry& geometry, float margin, Block& block) {
                     const Wide beyond = load(far.at_lowest[s] + i) + load(far.rise[s] + i) * height;
                     const Wide slope = viewers.bound(edges, k, geometry.sectors[s]);
                     store_bytes(max(slope, beyond), margin,
-                                &block.bytes[(s * Block::kCells + j) * Block::kCells + i]);
+                                &block.bytes[(j * Block::kSectors + s) * Block::kCells + i]);
                 }
             }
         }

@@ -126,7 +126,7 @@ class SectorBuilder {
     }
 
     void add_samples(HorizonSector& s) const {
-        Nearest plane, front, blunt;
+        Nearest plane, close_front, close_blunt, front, blunt;
         const auto add = [](Nearest& to, const std::array<double, 4>& inverse, int a, int b,
                             int pitch) {
             for (int k = 0; k < 4; ++k)
@@ -140,11 +140,11 @@ class SectorBuilder {
                 std::array<double, 4> bluntly;
                 bluntly.fill(1 / box.shortest());
                 const auto straight = inverses(cone_.middle(), a, b);
-                if (ring > Reach::kPlane) {
-                    const bool sharp = sum(straight) < sum(bluntly);
-                    add(sharp ? front : blunt, sharp ? straight : bluntly, a, b, pitches_.samples);
-                    continue;
-                }
+                const bool sharp = sum(straight) < sum(bluntly), close = ring <= Reach::kPlane;
+                Nearest& list =
+                    close ? (sharp ? close_front : close_blunt) : (sharp ? front : blunt);
+                add(list, sharp ? straight : bluntly, a, b, pitches_.samples);
+                if (!close) continue;
                 // The plane is taken off already, so any direction will do to measure along
                 std::array<double, 4> best = bluntly;
                 for (const auto& other : {straight, inverses({cone_.sign_x, 0}, a, b),
@@ -154,6 +154,8 @@ class SectorBuilder {
             }
         }
         s.plane = plane.list();
+        s.close_front = close_front.list();
+        s.close_blunt = close_blunt.list();
         s.front = front.list();
         s.blunt = blunt.list();
     }

@@ -11,15 +11,17 @@ namespace asperity::detail {
 /// nested square frames ("rings" of cells around the cell); every frame is looked at more coarsely
 /// than the one inside it. Lengths here are in cells.
 struct HorizonReach {
-    /// Rings up to here: single samples, heights taken relative to the cell's tangent plane.
-    static constexpr int kPlane = 4;
+    /// Rings up to here: single samples, their heights taken both as they are (tight on white
+    /// noise) and above the mean plane through the cell (tight on smooth surfaces): the lesser
+    /// slope counts.
+    static constexpr int kPlane = 5;
     /// Rings up to here: single samples.
-    static constexpr int kNear = 7;
+    static constexpr int kNear = 10;
     /// Up to kWindows: the highest points of squares of kWindow x kWindow cells.
-    static constexpr int kWindow = 3, kWindowFrames = 3;
+    static constexpr int kWindow = 3, kWindowFrames = 5;
     static constexpr int kWindows = kNear + kWindow * kWindowFrames;
     /// Then tiles of 8 x 8 cells seen from blocks of 8 x 8 cells, as far as kTiles tiles ...
-    static constexpr int kTile = 8, kTiles = 11, kTilesInside = 1;
+    static constexpr int kTile = 8, kTiles = 11, kTilesInside = 2;
     /// ... and tiles of 32 x 32 cells seen from blocks of as many, as far as kWideTiles tiles.
     static constexpr int kWideTile = 32, kWideTiles = 16, kWideTilesInside = 2;
 
@@ -45,8 +47,9 @@ using HorizonTerms = std::vector<HorizonTerm>;
 struct HorizonSector {
     /// u . (v_front - v) >= 0 for the corners (0,0), (1,0), (0,1), (1,1) of P.
     std::array<float, 4> back;
-    HorizonTerms plane;         ///< samples, offsets in rows of plane_pitch()
-    HorizonTerms front, blunt;  ///< samples
+    HorizonTerms plane;                     ///< samples of rings <= kPlane above the plane
+    HorizonTerms close_front, close_blunt;  ///< the same samples as they are
+    HorizonTerms front, blunt;              ///< samples of the rings up to kNear
     HorizonTerms window_front, window_blunt;
     HorizonTerms tiles, wide_tiles;
 };
