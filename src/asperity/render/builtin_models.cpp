@@ -79,12 +79,12 @@ Model make_knot() {
 }
 
 /// Distance of the preview ball's skin from its centre, at an angle from its axis: a sphere with a
-/// round recess that bares a smaller sphere, and a ring laid into a groove round the waist.
+/// round recess that bares a smaller sphere, and a ring laid into a groove round that.
 double ball_radius(double angle) {
-    const double from_waist = std::abs(angle - kPi / 2);
+    const double from_ring = std::abs(angle - radians(66));
     const double recess = 0.2 * (1 - smooth_step(radians(24), radians(33), angle));
-    const double groove = 0.1 * (1 - smooth_step(radians(7.5), radians(10.5), from_waist));
-    const double ring = 0.1 * (1 - smooth_step(radians(2.5), radians(5.5), from_waist));
+    const double groove = 0.1 * (1 - smooth_step(radians(7.5), radians(10.5), from_ring));
+    const double ring = 0.1 * (1 - smooth_step(radians(2.5), radians(5.5), from_ring));
     return 1 - recess - groove + ring;
 }
 
@@ -119,7 +119,7 @@ Model make_ball() {
     model.meshes.push_back(detail::lathe("foot", detail::rounded_profile(foot), kColumns));
     model.meshes.push_back(detail::lathe("dish", detail::rounded_profile(dish), kColumns));
     model.instances = {
-        {0, leaning(52), Role::Subject}, {1, {}, Role::Subject}, {2, {}, Role::Stage}};
+        {0, leaning(44), Role::Subject}, {1, {}, Role::Subject}, {2, {}, Role::Stage}};
     fit_to_unit_sphere(model);
     return model;
 }
@@ -176,7 +176,7 @@ Model make_bowl() {
     model.meshes.back().name = "pearl";
     // It has rolled to where the leaning bowl is lowest.
     const double depth = kShell - kHalfThickness - kPearl - 1e-3;
-    model.instances = {{0, leaning(34), Role::Subject},
+    model.instances = {{0, leaning(42), Role::Subject},
                        {1, scaled(kPearl, {0, -depth, 0}), Role::Subject}};
     fit_to_unit_sphere(model);
     return model;
