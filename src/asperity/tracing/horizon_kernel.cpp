@@ -3,7 +3,8 @@
 #include <asperity/tracing/horizon_block.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <cstdint>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE <asperity/tracing/horizon_kernel.cpp>
@@ -82,17 +83,17 @@ void find_windows(Block& block) {
     constexpr int kSize = Reach::kWindow, kHalo = Reach::kWindows;
     for (int j = -kHalo; j + kSize <= Block::kCells + kHalo; ++j) {
         for (int i = -kHalo; i <= Block::kCells + kHalo; i += kLanes) {
-            const float* from = &block.samples[Block::at(i, j)];
+            const float* from = block.samples.data() + Block::at(i, j);
             V highest = hn::LoadU(kTag, from);
             for (int k = 1; k <= kSize; ++k)
                 highest = hn::Max(highest, hn::LoadU(kTag, from + k * Block::kPitch));
-            hn::StoreU(highest, kTag, &block.scratch[Block::at(i, 0) - Block::at(0, 0) + kHalo]);
+            hn::StoreU(highest, kTag, block.scratch.data() + i + kHalo);
         }
         for (int i = -kHalo; i <= Block::kCells + kHalo; i += kLanes) {
-            const float* from = &block.scratch[i + kHalo];
+            const float* from = block.scratch.data() + i + kHalo;
             V highest = hn::LoadU(kTag, from);
             for (int k = 1; k <= kSize; ++k) highest = hn::Max(highest, hn::LoadU(kTag, from + k));
-            hn::StoreU(highest, kTag, &block.windows[Block::at(i, j)]);
+            hn::StoreU(highest, kTag, block.windows.data() + Block::at(i, j));
         }
     }
 }
@@ -100,18 +101,19 @@ void find_windows(Block& block) {
 /// The highest points of the tiles around.
 void find_tiles(Block& block) {
     constexpr int kSize = Reach::kTile;
-    HorizonLevel& level = block.near_tiles;
+    const HorizonLevel& level = block.near_tiles;
+    float* tiles = block.near_tiles.tiles.data();
     for (int b = 0; b < level.pitch; ++b) {
-        const float* row = &block.samples[b * kSize * Block::kPitch];
+        const float* row = block.samples.data() + b * kSize * Block::kPitch;
         for (int i = 0; i < Block::kSide; i += kLanes) {
             V highest = hn::LoadU(kTag, row + i);
             for (int k = 1; k <= kSize; ++k)
                 highest = hn::Max(highest, hn::LoadU(kTag, row + k * Block::kPitch + i));
-            hn::StoreU(highest, kTag, &block.scratch[i]);
+            hn::StoreU(highest, kTag, block.scratch.data() + i);
         }
         for (int a = 0; a < level.pitch; ++a) {
-            const float* from = &block.scratch[a * kSize];
-            level.tiles[b * level.pitch + a] = *std::max_element(from, from + kSize + 1);
+            const float* from = block.scratch.data() + a * kSize;
+            tiles[b * level.pitch + a] = *std::max_element(from, from + kSize + 1);
         }
     }
 }
@@ -126,13 +128,13 @@ void find_viewers(const Block& block, int size, HorizonLevel& level) {
             const int j1 = std::min((b + 1) * size, block.cells_y);
             for (int j = b * size; j <= j1; ++j) {
                 for (int i = a * size; i <= i1; ++i) {
-                    const float height = block.samples[Block::at(i, j)];
+                    const float height = block.samples.data()[Block::at(i, j)];
                     low = std::min(low, height);
                     if (i < i1 && j < j1) high = std::max(high, height);
                 }
             }
-            level.lowest[b * HorizonLevel::kRow + a] = low;
-            level.highest[b * HorizonLevel::kRow + a] = std::max(low, high);
+            level.lowest.data()[b * HorizonLevel::kRow + a] = low;
+            level.highest.data()[b * HorizonLevel::kRow + a] = std::max(low, high);
         }
     }
 }
@@ -154,23 +156,23 @@ void climb_row(const HorizonTerms& terms, const float* tiles, const float* viewe
 /// Makes the chords of a level. `beyond(row, column, sector, height)` is the slope needed for what
 /// lies outside its tiles.
 template <class Beyond>
-void climb(HorizonLevel& level, const std::array<HorizonSector, 16>& sectors,
-           HorizonTerms HorizonSector::*terms, const Beyond& beyond) {
+void climb(HorizonLevel& level, const HorizonSector* sectors, HorizonTerms HorizonSector::*terms,
+           const Beyond& beyond) {
     constexpr int kRow = HorizonLevel::kRow;
     for (int b = 0; b < level.viewers; ++b) {
-        const float* low = &level.lowest[b * kRow];
-        const float* high = &level.highest[b * kRow];
+        const float* low = level.lowest.data() + b * kRow;
+        const float* high = level.highest.data() + b * kRow;
         const float* tiles = level.origin() + b * level.pitch;
         for (int s = 0; s < Block::kSectors; ++s) {
-            float* at_low = &level.at_lowest[(b * Block::kSectors + s) * kRow];
-            float* rise = &level.rise[(b * Block::kSectors + s) * kRow];
-            std::array<float, kRow> at_high{};
+            float* at_low = level.at_lowest.data() + (b * Block::kSectors + s) * kRow;
+            float* rise = level.rise.data() + (b * Block::kSectors + s) * kRow;
+            float at_high[kRow] = {};
             for (int a = 0; a < level.viewers; ++a) {
                 at_low[a] = beyond(b, a, s, low[a]);
                 at_high[a] = beyond(b, a, s, high[a]);
             }
             climb_row(sectors[s].*terms, tiles, low, at_low);
-            climb_row(sectors[s].*terms, tiles, high, at_high.data());
+            climb_row(sectors[s].*terms, tiles, high, at_high);
             for (int a = 0; a < level.viewers; ++a)
                 rise[a] = high[a] > low[a] ? (at_high[a] - at_low[a]) / (high[a] - low[a]) : 0;
         }
@@ -190,7 +192,8 @@ void climb_far(const HorizonGeometry& geometry, Block& block) {
         const int row = b / kRatio, column = a / kRatio;
         const int at = (row * Block::kSectors + s) * kRow + column;
         return std::max(
-            0.0f, wide.at_lowest[at] + wide.rise[at] * (height - wide.lowest[row * kRow + column]));
+            0.0f, wide.at_lowest.data()[at] +
+                      wide.rise.data()[at] * (height - wide.lowest.data()[row * kRow + column]));
     });
 }
 
@@ -203,12 +206,12 @@ struct FarSlopes {
     void spread(const HorizonLevel& level, int row) {
         constexpr int kSize = Reach::kTile;
         for (int i = 0; i < Block::kCells; ++i)
-            lowest[i] = level.lowest[row * HorizonLevel::kRow + i / kSize];
+            lowest[i] = level.lowest.data()[row * HorizonLevel::kRow + i / kSize];
         for (int s = 0; s < Block::kSectors; ++s) {
             const int at = (row * Block::kSectors + s) * HorizonLevel::kRow;
             for (int i = 0; i < Block::kCells; ++i) {
-                at_lowest[s][i] = level.at_lowest[at + i / kSize];
-                rise[s][i] = level.rise[at + i / kSize];
+                at_lowest[s][i] = level.at_lowest.data()[at + i / kSize];
+                rise[s][i] = level.rise.data()[at + i / kSize];
             }
         }
     }
@@ -219,8 +222,8 @@ class Viewers {
   public:
     Viewers(const HorizonGeometry& geometry, const Block& block, int i, int j)
         : geometry_(geometry),
-          samples_(&block.samples[Block::at(i, j)]),
-          windows_(&block.windows[Block::at(i, j)]) {
+          samples_(block.samples.data() + Block::at(i, j)),
+          windows_(block.windows.data() + Block::at(i, j)) {
         for (int k = 0; k < 4; ++k) corner_[k] = load(samples_ + k / 2 * Block::kPitch + k % 2);
         lowest_ = min(min(corner_[0], corner_[1]), min(corner_[2], corner_[3]));
         take_facets();
@@ -354,7 +357,7 @@ void bound_block(const HorizonGeometry& geometry, float margin, Block& block) {
                     const Wide beyond = load(far.at_lowest[s] + i) + load(far.rise[s] + i) * height;
                     const Wide slope = viewers.bound(edges, k, geometry.sectors[s]);
                     store_bytes(max(slope, beyond), margin,
-                                &block.bytes[(j * Block::kSectors + s) * Block::kCells + i]);
+                                block.bytes.data() + (j * Block::kSectors + s) * Block::kCells + i);
                 }
             }
         }

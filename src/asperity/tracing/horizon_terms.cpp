@@ -2,7 +2,9 @@
 #include <asperity/tracing/horizon_terms.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -83,7 +85,7 @@ class SectorBuilder {
         const Vec u = cone_.middle();
         for (int k = 0; k < 4; ++k) {
             const Vec v{static_cast<double>(k % 2), aspect_ * (k / 2)};
-            s.back[static_cast<std::size_t>(k)] = static_cast<float>(front_of(u) - dot(u, v));
+            s.back[k] = static_cast<float>(front_of(u) - dot(u, v));
         }
         add_samples(s);
         add_windows(s);
@@ -209,16 +211,15 @@ HorizonGeometry::HorizonGeometry(double dx, double dy, const Pitches& pitches)
     : aspect(static_cast<float>(dy / dx)) {
     constexpr double kWidth = std::numbers::pi / 8;
     secant = static_cast<float>(1 / std::cos(kWidth / 2));
-    for (std::size_t k = 0; k < kEdges; ++k) {
-        edge_x[k] = k == kEdges - 1 ? 0 : static_cast<float>(std::cos(kWidth * double(k)));
-        edge_y[k] = static_cast<float>(std::sin(kWidth * double(k)));
+    for (int k = 0; k < kEdges; ++k) {
+        edge_x[k] = k == kEdges - 1 ? 0 : static_cast<float>(std::cos(kWidth * k));
+        edge_y[k] = static_cast<float>(std::sin(kWidth * k));
     }
     for (int quadrant = 0; quadrant < 4; ++quadrant) {
         for (int k = 0; k < 4; ++k) {
             const Cone cone{quadrant & 1 ? -1.0 : 1.0, quadrant & 2 ? -1.0 : 1.0, kWidth * k,
                             kWidth * (k + 1)};
-            sectors[static_cast<std::size_t>(sector(quadrant, k))] =
-                SectorBuilder(cone, dy / dx, pitches).build();
+            sectors[sector(quadrant, k)] = SectorBuilder(cone, dy / dx, pitches).build();
         }
     }
     const double all = HorizonReach::kWideTile * HorizonReach::kWideTiles;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -46,7 +45,7 @@ using HorizonTerms = std::vector<HorizonTerm>;
 /// shortest distance from any point of P to any point of a cell Q, in all directions.
 struct HorizonSector {
     /// u . (v_front - v) >= 0 for the corners (0,0), (1,0), (0,1), (1,1) of P.
-    std::array<float, 4> back;
+    float back[4];
     HorizonTerms plane;                     ///< samples of rings <= kPlane above the plane
     HorizonTerms close_front, close_blunt;  ///< the same samples as they are
     HorizonTerms front, blunt;              ///< samples of the rings up to kNear
@@ -58,10 +57,10 @@ struct HorizonSector {
 struct HorizonGeometry {
     /// The five directions that bound the four sectors of a quadrant, from x to y, |d| = 1.
     static constexpr int kEdges = 5;
-    std::array<float, kEdges> edge_x, edge_y;
+    float edge_x[kEdges], edge_y[kEdges];
     float secant;  ///< 1 / cos of half a sector's width: over the values at its two edges
     float aspect;  ///< dy / dx
-    std::array<HorizonSector, 16> sectors;
+    HorizonSector sectors[16];
     /// 1 / distance of what no tile holds, from any viewer.
     float beyond;
 

@@ -76,7 +76,7 @@ int count_above_horizon(const Heightfield& s, int looks) {
     const double furthest = std::log(3000 * std::hypot(s.dx, s.dy));
     int above = 0;
     for (int n = 0; n < looks; ++n) {
-        const CounterRandom random(7, static_cast<std::uint64_t>(n));
+        const CounterRandom random(7, static_cast<std::uint32_t>(n));
         const auto where = random.uniform2(0), place = random.uniform2(1), rim = random.uniform2(2),
                    aim = random.uniform2(3), how = random.uniform2(4);
         const int i = static_cast<int>(where[0] * padded.cells_x());
@@ -172,7 +172,9 @@ TEST(Horizon, GrooveByHand) {
             Horizon::slope_of(horizon.byte(12, 20, sector_to((k + 0.5) * kSectorWidth)));
         EXPECT_GE(bound, expected) << k;
         // Looking along the groove, what lies just outside the sector is counted too
-        if (across > 0.9) EXPECT_LE(bound, expected + (forward ? 0.1 : 0.05)) << k;
+        if (across > 0.9) {
+            EXPECT_LE(bound, expected + (forward ? 0.1 : 0.05)) << k;
+        }
     }
 }
 
