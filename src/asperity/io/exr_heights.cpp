@@ -6,36 +6,18 @@
 #include <ImfOutputFile.h>
 #include <asperity/core/error.h>
 #include <asperity/io/atomic_file.h>
+#include <asperity/io/exr_errors.h>
 #include <asperity/io/exr_outline.h>
 #include <asperity/io/height_files.h>
 #include <asperity/io/parse_number.h>
 #include <asperity/io/read_file.h>
 #include <fmt/format.h>
 
-#include <new>
-
 namespace asperity::io {
 namespace {
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
     throw Error(ErrorCode::InvalidInput, why, path);
-}
-
-// Whatever OpenEXR throws becomes our error of one line.
-template <typename Call>
-void translating(const std::string& path, ErrorCode code, Call&& call) {
-    try {
-        call();
-    } catch (const Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        throw Error(ErrorCode::OutOfMemory, "too large for the memory there is", path);
-    } catch (const std::exception& error) {
-        std::string why = error.what();
-        for (char& c : why)
-            if (static_cast<unsigned char>(c) < ' ') c = ' ';
-        throw Error(code, "OpenEXR: " + std::string(trimmed(why)), path);
-    }
 }
 
 std::string only_channel(const Imf::Header& header, const std::string& path) {
@@ -78,15 +60,15 @@ Heightfield read_image(const InputFile& file) {
 
 Heightfield read_exr_heights(const std::string& path) {
     const InputFile file(path);
-    check_exr_outline(file);
+    check_exr_outline(file, ExrContent::Heights);
     Heightfield surface;
-    translating(path, ErrorCode::InvalidInput, [&] { surface = read_image(file); });
+    translating_exr(path, ErrorCode::InvalidInput, [&] { surface = read_image(file); });
     return surface;
 }
 
 void write_exr_heights(const Heightfield& surface, const std::string& path) {
     AtomicFile file(path);
-    translating(path, ErrorCode::InputOutput, [&] {
+    translating_exr(path, ErrorCode::InputOutput, [&] {
         Imf::Header header(surface.nx, surface.ny);
         header.compression() = Imf::ZIP_COMPRESSION;
         header.channels().insert("Y", Imf::Channel(Imf::FLOAT));

@@ -3,6 +3,7 @@
 
 #include <asperity/core/error.h>
 #include <asperity/io/height_files.h>
+#include <asperity/io/image_reader.h>
 #include <asperity/io/parse_number.h>
 #include <fmt/format.h>
 
@@ -28,19 +29,30 @@ constexpr std::uint32_t kMaxTileSide = 4096;
 constexpr std::uint64_t kTrustedBytes = 1 << 20;
 constexpr std::uint64_t kMaxCompression = 10000;
 
+// Most numbers in all channels, and in one tile of them.
+constexpr std::uint64_t kMaxNumbers = std::uint64_t{1} << 32;
+constexpr std::uint64_t kMaxTileNumbers = std::uint64_t{1} << 28;
+constexpr std::uint64_t kMaxChannels = 1024;
+
 class OutlineReader {
   public:
-    OutlineReader(const InputFile& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
+    OutlineReader(const InputFile& file, std::string_view bytes, ExrContent content)
+        : file_(file), bytes_(bytes), content_(content) {}
 
     void check() {
         if (!bytes_.starts_with(kMagic)) fail("not an OpenEXR file (wrong magic)");
         place_ = kMagic.size();
         const auto version = number<std::uint32_t>(place_);
-        if ((version & kMultiPart) != 0) fail("several parts, heights need one");
-        if ((version & kDeep) != 0) fail("a deep image holds no heights");
+        const bool heights = content_ == ExrContent::Heights;
+        if ((version & kMultiPart) != 0)
+            fail(heights ? "several parts, heights need one" : "several parts, a picture is one");
+        if ((version & kDeep) != 0)
+            fail(heights ? "a deep image holds no heights" : "a deep image is no picture");
         place_ += sizeof version;
         for (std::string_view name = word(); !name.empty(); name = word()) check_attribute(name);
-        if (!has_window_) fail("the header has no data window");
+        if (nx_ == 0) fail("the header has no data window");
+        if (channels_ == 0) fail("the header has no channels");
+        check_amounts();
     }
 
   private:
@@ -53,6 +65,7 @@ class OutlineReader {
                              in_quotes(name), size, bytes_.size() - place_));
         const std::uint64_t end = place_ + size;
         if (name == "dataWindow") check_window(size);
+        if (name == "channels") count_channels(end);
         if (name == "tiles") check_tiles(size);
         if (type == "preview") check_preview(size);
         place_ = end;
@@ -65,14 +78,41 @@ class OutlineReader {
         const std::int64_t right = number<std::int32_t>(place_ + 8);
         const std::int64_t bottom = number<std::int32_t>(place_ + 12);
         if (right < left || bottom < top) fail("the data window is empty");
-        const auto nx = static_cast<std::uint64_t>(right - left + 1);
-        const auto ny = static_cast<std::uint64_t>(bottom - top + 1);
-        check_sides(nx, ny, file_.path());
-        const std::uint64_t bytes = nx * ny * sizeof(float);
+        nx_ = static_cast<std::uint64_t>(right - left + 1);
+        ny_ = static_cast<std::uint64_t>(bottom - top + 1);
+        if (content_ == ExrContent::Heights)
+            check_sides(nx_, ny_, file_.path());
+        else
+            check_image_size(nx_, ny_, file_.path());
+    }
+
+    // A name, then 16 bytes of description, over and over; an empty name ends the list.
+    void count_channels(std::uint64_t end) {
+        constexpr std::uint64_t kDescription = 16;
+        channels_ = 0;
+        while (place_ < end && !word().empty()) {
+            ++channels_;
+            place_ += kDescription;
+        }
+        if (place_ > end || channels_ > kMaxChannels) fail("the list of channels is damaged");
+    }
+
+    // What the library will allocate, when all sizes are known.
+    void check_amounts() const {
+        const std::uint64_t numbers = nx_ * ny_ * channels_;
+        const std::uint64_t bytes = numbers * sizeof(float);
         if (bytes > kTrustedBytes && bytes / kMaxCompression > file_.size())
-            fail(
-                fmt::format("{} x {} samples do not fit a file of {} bytes", nx, ny, file_.size()));
-        has_window_ = true;
+            fail(fmt::format("{} x {} samples do not fit a file of {} bytes", nx_, ny_,
+                             file_.size()));
+        if (numbers > kMaxNumbers)
+            fail(fmt::format("{} channels of {} x {} samples are too many", channels_, nx_, ny_));
+        if (tile_width_ == 0) return;
+        // The file holds a place of 8 bytes for each tile.
+        const std::uint64_t tiles =
+            ((nx_ + tile_width_ - 1) / tile_width_) * ((ny_ + tile_height_ - 1) / tile_height_);
+        if (tiles * 8 > file_.size() || tile_width_ * tile_height_ * channels_ > kMaxTileNumbers)
+            fail(fmt::format("tiles of {} x {} samples do not fit a file of {} bytes", tile_width_,
+                             tile_height_, file_.size()));
     }
 
     void check_tiles(std::uint32_t size) {
@@ -82,6 +122,8 @@ class OutlineReader {
         if (std::min(width, height) < 1 || std::max(width, height) > kMaxTileSide)
             fail(fmt::format("tiles of {} x {} samples, 1 to {} on a side are allowed", width,
                              height, kMaxTileSide));
+        tile_width_ = width;
+        tile_height_ = height;
     }
 
     void check_preview(std::uint32_t size) {
@@ -118,16 +160,18 @@ class OutlineReader {
 
     const InputFile& file_;
     std::string_view bytes_;
+    ExrContent content_;
     std::uint64_t place_ = 0;
-    bool has_window_ = false;
+    std::uint64_t nx_ = 0, ny_ = 0, channels_ = 0;    // 0: not told yet
+    std::uint64_t tile_width_ = 0, tile_height_ = 0;  // 0: lines, not tiles
 };
 
 }  // namespace
 
-void check_exr_outline(const InputFile& file) {
+void check_exr_outline(const InputFile& file, ExrContent content) {
     std::string start(static_cast<std::size_t>(std::min(file.size(), kMaxHeaderBytes)), '\0');
     file.read(0, std::as_writable_bytes(std::span(start)));
-    OutlineReader(file, start).check();
+    OutlineReader(file, start, content).check();
 }
 
 }  // namespace asperity::io

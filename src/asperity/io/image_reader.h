@@ -3,6 +3,7 @@
 
 #include <asperity/render/image.h>
 
+#include <cstdint>
 #include <string>
 
 namespace asperity::io {
@@ -19,5 +20,8 @@ inline constexpr int kMaxImagePixels = 1 << 28;
 /// Throws Error(InvalidInput, "file" or "file:byte") for a file that is cut, damaged, too large or
 /// claims more than its bytes can hold; Error(InputOutput, path).
 Image read_image(const std::string& path);
+
+/// Throws Error(InvalidInput, path) for a picture without pixels or beyond the limits above.
+void check_image_size(std::uint64_t width, std::uint64_t height, const std::string& path);
 
 }  // namespace asperity::io
