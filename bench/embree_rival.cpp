@@ -1,259 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
-// The competitor. Embree knows no periodic surface: it gets one tile with a margin of its
-// neighbours around it, and a ray that leaves through the side of that enters again one tile back.
+// The competitor: Embree in all its modes. A ray that leaves through the side of the scene's margin
+// enters again one tile back.
+#include "embree_rays.h"
+#include "embree_scene.h"
 #include "rival.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
-#include <atomic>
-#include <chrono>
+#include <array>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
 
 namespace asperity::bench {
 
 namespace {
 
-constexpr int kMargin = 64;  // cells; keeps ways through the side rare
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-enum class Geometry { Triangles, Grid };
-
-/// Embree counts what it takes and gives back.
-bool count_bytes(void* total, ssize_t bytes, bool) {
-    static_cast<std::atomic<std::ptrdiff_t>*>(total)->fetch_add(bytes);
-    return true;
-}
-
-/// One tile and its margin as an Embree scene.
-class Scene {
-  public:
-    Scene(const Heightfield& surface, Geometry geometry)
-        : tile_x(static_cast<float>(surface.nx * surface.dx)),
-          tile_y(static_cast<float>(surface.ny * surface.dy)),
-          margin_cells_(std::min({kMargin, surface.nx, surface.ny})),
-          surface_(surface),
-          device_(rtcNewDevice(nullptr)) {
-        if (device_ == nullptr) throw std::runtime_error("Embree gives no device");
-        rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);
-        margin_x = static_cast<float>(margin_cells_ * surface.dx);
-        margin_y = static_cast<float>(margin_cells_ * surface.dy);
-        top = *std::max_element(surface.heights.begin(), surface.heights.end());
-        const auto begin = std::chrono::steady_clock::now();
-        scene_ = rtcNewScene(device_);
-        rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
-        const RTCGeometry mesh = geometry == Geometry::Grid ? new_grid() : new_triangles();
-        rtcCommitGeometry(mesh);
-        rtcAttachGeometry(scene_, mesh);
-        rtcReleaseGeometry(mesh);
-        rtcCommitScene(scene_);
-        build_seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) {
-            throw std::runtime_error("Embree could not build the scene");
-        }
-    }
-    ~Scene() {
-        rtcReleaseScene(scene_);
-        rtcReleaseDevice(device_);
-    }
-    Scene(const Scene&) = delete;
-    Scene& operator=(const Scene&) = delete;
-
-    RTCScene handle() const { return scene_; }
-    std::size_t memory_bytes() const { return static_cast<std::size_t>(bytes_.load()); }
-    bool has_wide_registers() const {
-        return rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
-    }
-
-    float tile_x, tile_y, margin_x = 0, margin_y = 0;
-    float top = 0;  ///< the highest point
-    double build_seconds = 0;
-
-  private:
-    unsigned columns() const { return static_cast<unsigned>(surface_.nx + 2 * margin_cells_ + 1); }
-    unsigned rows() const { return static_cast<unsigned>(surface_.ny + 2 * margin_cells_ + 1); }
-
-    void add_vertices(RTCGeometry mesh) const {
-        auto* vertex = static_cast<float*>(
-            rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                    3 * sizeof(float), std::size_t{columns()} * rows()));
-        for (unsigned row = 0; row < rows(); ++row) {
-            const int j = static_cast<int>(row) - margin_cells_;
-            for (unsigned column = 0; column < columns(); ++column) {
-                const int i = static_cast<int>(column) - margin_cells_;
-                *vertex++ = static_cast<float>(i * surface_.dx);
-                *vertex++ = static_cast<float>(j * surface_.dy);
-                *vertex++ =
-                    surface_.at((i + surface_.nx) % surface_.nx, (j + surface_.ny) % surface_.ny);
-            }
-        }
-    }
-
-    RTCGeometry new_triangles() const {
-        const RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        add_vertices(mesh);
-        const std::size_t cells = std::size_t{columns() - 1} * (rows() - 1);
-        auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-            mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), 2 * cells));
-        for (unsigned row = 0; row + 1 < rows(); ++row) {
-            for (unsigned column = 0; column + 1 < columns(); ++column) {
-                const unsigned a = row * columns() + column, b = a + 1;
-                const unsigned c = a + columns(), d = c + 1;
-                for (const unsigned corner : {a, b, c, b, d, c}) *index++ = corner;
-            }
-        }
-        return mesh;
-    }
-
-    RTCGeometry new_grid() const {
-        const RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_GRID);
-        add_vertices(mesh);
-        auto* grid = static_cast<RTCGrid*>(rtcSetNewGeometryBuffer(
-            mesh, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID, sizeof(RTCGrid), 1));
-        *grid = {0, columns(), static_cast<unsigned short>(columns()),
-                 static_cast<unsigned short>(rows())};
-        return mesh;
-    }
-
-    int margin_cells_;
-    const Heightfield& surface_;
-    RTCDevice device_;
-    RTCScene scene_ = nullptr;
-    std::atomic<std::ptrdiff_t> bytes_{0};
-};
-
-/// Embree's packet of `kLanes` rays, and the call that traces it.
-template <int kLanes>
-struct Packet;
-template <>
-struct Packet<8> {
-    using Type = RTCRayHit8;
-    static void intersect(const int* valid, RTCScene scene, RTCIntersectContext* context, Type* p) {
-        rtcIntersect8(valid, scene, context, p);
-    }
-};
-template <>
-struct Packet<16> {
-    using Type = RTCRayHit16;
-    static void intersect(const int* valid, RTCScene scene, RTCIntersectContext* context, Type* p) {
-        rtcIntersect16(valid, scene, context, p);
-    }
-};
-
-/// A path between two calls of Embree.
-struct Path {
-    float x, y, z, dx, dy, dz;
-};
-/// What Embree found for it.
-struct Found {
-    bool hit;
-    float t, nx, ny, nz;  ///< distance; normal, not unit length
-};
-
-/// A batch of single rays.
-class SingleRays {
-  public:
-    static constexpr const char* kName = "1";
-    SingleRays() : rays_(kBatch) {}
-
-    void put(std::size_t k, const Path& p) {
-        RTCRay& r = rays_[k].ray;
-        r.org_x = p.x, r.org_y = p.y, r.org_z = p.z;
-        r.dir_x = p.dx, r.dir_y = p.dy, r.dir_z = p.dz;
-    }
-    Path get(std::size_t k) const {
-        const RTCRay& r = rays_[k].ray;
-        return {r.org_x, r.org_y, r.org_z, r.dir_x, r.dir_y, r.dir_z};
-    }
-    Found found(std::size_t k) const {
-        const RTCRayHit& r = rays_[k];
-        return {r.hit.geomID != RTC_INVALID_GEOMETRY_ID, r.ray.tfar, r.hit.Ng_x, r.hit.Ng_y,
-                r.hit.Ng_z};
-    }
-    void trace(RTCScene scene, RTCIntersectContext* context, std::size_t count) {
-        for (std::size_t k = 0; k < count; ++k) {
-            RTCRayHit& r = rays_[k];
-            r.ray.tnear = 0, r.ray.time = 0, r.ray.tfar = kInfinity;
-            r.ray.mask = ~0U, r.ray.flags = 0;
-            r.hit.geomID = RTC_INVALID_GEOMETRY_ID, r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-            rtcIntersect1(scene, context, &r);
-        }
-    }
-
-  private:
-    std::vector<RTCRayHit> rays_;
-};
-
-/// A batch in packets of kLanes rays, kept in Embree's own layout.
-template <int kLanes>
-class PacketRays {
-  public:
-    static constexpr const char* kName = kLanes == 8 ? "8" : "16";
-    PacketRays() : packets_(kBatch / kLanes) {}
-
-    void put(std::size_t k, const Path& p) {
-        auto& r = packets_[k / kLanes].ray;
-        const std::size_t lane = k % kLanes;
-        r.org_x[lane] = p.x, r.org_y[lane] = p.y, r.org_z[lane] = p.z;
-        r.dir_x[lane] = p.dx, r.dir_y[lane] = p.dy, r.dir_z[lane] = p.dz;
-    }
-    Path get(std::size_t k) const {
-        const auto& r = packets_[k / kLanes].ray;
-        const std::size_t lane = k % kLanes;
-        return {r.org_x[lane], r.org_y[lane], r.org_z[lane],
-                r.dir_x[lane], r.dir_y[lane], r.dir_z[lane]};
-    }
-    Found found(std::size_t k) const {
-        const auto& p = packets_[k / kLanes];
-        const std::size_t lane = k % kLanes;
-        return {p.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID, p.ray.tfar[lane], p.hit.Ng_x[lane],
-                p.hit.Ng_y[lane], p.hit.Ng_z[lane]};
-    }
-    void trace(RTCScene scene, RTCIntersectContext* context, std::size_t count) {
-        for (std::size_t first = 0; first < count; first += kLanes) {
-            auto& p = packets_[first / kLanes];
-            alignas(64) int valid[kLanes];
-            for (std::size_t lane = 0; lane < kLanes; ++lane) {
-                valid[lane] = first + lane < count ? -1 : 0;
-                p.ray.tnear[lane] = 0, p.ray.time[lane] = 0, p.ray.tfar[lane] = kInfinity;
-                p.ray.mask[lane] = ~0U, p.ray.flags[lane] = 0;
-                p.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-                p.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
-            }
-            Packet<kLanes>::intersect(valid, scene, context, &p);
-        }
-    }
-
-  private:
-    std::vector<typename Packet<kLanes>::Type> packets_;
-};
+/// What the rays of the first segment, parallel and side by side, are said to be.
+enum class FirstHit { Incoherent, Coherent };
 
 /// Embree with one kind of geometry and one kind of batch.
 template <class Rays>
 class EmbreeRival : public Rival {
   public:
-    EmbreeRival(std::shared_ptr<const Scene> scene, std::string geometry)
+    EmbreeRival(std::shared_ptr<const EmbreeScene> scene, std::string geometry, FirstHit first_hit)
         : scene_(std::move(scene)),
           geometry_(std::move(geometry)),
+          first_hit_(first_hit),
           lift_(std::max(scene_->tile_x, scene_->tile_y) * 0x1p-21F) {}
 
-    std::string name() const override { return "embree_" + geometry_ + Rays::kName; }
+    std::string name() const override {
+        return geometry_ + Rays::kName + (first_hit_ == FirstHit::Coherent ? "c" : "");
+    }
     std::size_t memory_bytes() const override { return scene_->memory_bytes(); }
     double build_seconds() const override { return scene_->build_seconds; }
 
-    Tally follow(const Workload& workload) const override {
+    Tally run(const Workload& workload) const override {
         Tally tally;
         Rays rays;
-        const Vec3 d = workload.direction;
+        const Vec3 d = workload.direction();
         const float dx = static_cast<float>(workload.surface->dx);
         const float dy = static_cast<float>(workload.surface->dy);
-        for (std::size_t first = 0; first < workload.launch.size(); first += kBatch) {
-            const std::size_t count = std::min(kBatch, workload.launch.size() - first);
+        for (std::size_t first = 0; first < workload.points.size(); first += kBatch) {
+            const std::size_t count = std::min(kBatch, workload.points.size() - first);
             for (std::size_t k = 0; k < count; ++k) {
-                const Launch& at = workload.launch[first + k];
+                const StartPoint& at = workload.points[first + k];
                 rays.put(
                     k, {(static_cast<float>(at.i) + at.u) * dx,
                         (static_cast<float>(at.j) + at.v) * dy, scene_->top,
@@ -265,7 +53,7 @@ class EmbreeRival : public Rival {
     }
 
   private:
-    /// `bounces` and `turns` of a path travel beside it, in the same order.
+    /// Reflections and ways through the side of a path; they travel beside it, in the same order.
     struct Counts {
         int bounces = 0, wraps = 0;
     };
@@ -275,13 +63,14 @@ class EmbreeRival : public Rival {
         std::array<Counts, kBatch> counts{};
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;  // parallel rays, side by side
+        context.flags = first_hit_ == FirstHit::Coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                                         : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
         while (alive > 0) {
             rays.trace(scene_->handle(), &context, alive);
             tally.add_segments(alive);
             std::size_t kept = 0;
             for (std::size_t k = 0; k < alive; ++k) {
-                Path path = rays.get(k);
+                EmbreePath path = rays.get(k);
                 Counts count = counts[k];
                 if (!advance(path, rays.found(k), count, limit, tally)) continue;
                 counts[kept] = count;
@@ -293,10 +82,11 @@ class EmbreeRival : public Rival {
     }
 
     /// Takes a path on from what Embree found; false when it has ended.
-    bool advance(Path& p, const Found& found, Counts& count, int limit, Tally& tally) const {
+    bool advance(EmbreePath& p, const EmbreeFound& found, Counts& count, int limit,
+                 Tally& tally) const {
         if (!found.hit) return leave(p, count, tally);
         if (count.bounces == limit) {
-            tally.add_truncated();
+            tally.add_truncated(1, static_cast<std::uint64_t>(count.bounces));
             return false;
         }
         const float length =
@@ -319,13 +109,13 @@ class EmbreeRival : public Rival {
     }
 
     /// A path that meets no triangle any more: out through the top, or through the side and on.
-    bool leave(Path& p, Counts& count, Tally& tally) const {
+    bool leave(EmbreePath& p, Counts& count, Tally& tally) const {
         const float to_top = p.dz > 0 ? std::max(0.0F, (scene_->top - p.z) / p.dz) : kInfinity;
         const float to_x = side(p.x, p.dx, scene_->tile_x, scene_->margin_x);
         const float to_y = side(p.y, p.dy, scene_->tile_y, scene_->margin_y);
         const float to_side = std::min(to_x, to_y);
         if (to_top <= to_side && to_top < kInfinity) {
-            tally.add_escape(static_cast<double>(p.dx), static_cast<double>(p.dy), count.bounces);
+            tally.add_escape(cells_, p.dx, p.dy, count.bounces);
             return false;
         }
         if (!(to_side < kInfinity) || count.wraps == kMaxWraps) {
@@ -346,23 +136,74 @@ class EmbreeRival : public Rival {
         return kInfinity;
     }
 
-    std::shared_ptr<const Scene> scene_;
+    std::shared_ptr<const EmbreeScene> scene_;
     std::string geometry_;
+    FirstHit first_hit_;
+    DirectionCells cells_;
     float lift_;  ///< start of a reflected ray above its facet, so that it does not meet it again
+};
+
+/// Adds the modes of one geometry to a list.
+class Modes {
+  public:
+    Modes(const Heightfield& surface, EmbreeGeometry geometry,
+          std::vector<std::unique_ptr<Rival>>& rivals)
+        : scene(std::make_shared<const EmbreeScene>(surface, geometry)),
+          name_(geometry == EmbreeGeometry::Grid ? "grid" : "tri"),
+          rivals_(rivals) {}
+
+    template <class Rays>
+    void add(FirstHit first_hit) {
+        rivals_.push_back(std::make_unique<EmbreeRival<Rays>>(scene, name_, first_hit));
+    }
+    template <class Rays>
+    void add_both() {
+        add<Rays>(FirstHit::Incoherent);
+        add<Rays>(FirstHit::Coherent);
+    }
+    void add_all() {
+        add<SingleRays<false>>(FirstHit::Incoherent);  // a single ray takes no notice of the flag
+        add_both<PacketRays<4>>();
+        add_both<PacketRays<8>>();
+        add_both<PacketRays<16>>();
+        if (!scene->has(RTC_DEVICE_PROPERTY_RAY_STREAM_SUPPORTED)) return;
+        add_both<SingleRays<true>>();
+        add_both<PacketRays<8, true>>();
+        add_both<ArrayRays>();
+    }
+
+    const std::shared_ptr<const EmbreeScene> scene;
+
+  private:
+    std::string name_;
+    std::vector<std::unique_ptr<Rival>>& rivals_;
 };
 
 }  // namespace
 
-std::vector<std::unique_ptr<Rival>> make_embree_rivals(const Heightfield& surface) {
-    const auto triangles = std::make_shared<const Scene>(surface, Geometry::Triangles);
-    const auto grid = std::make_shared<const Scene>(surface, Geometry::Grid);
+std::vector<std::unique_ptr<Rival>> make_embree_rivals(const Heightfield& surface,
+                                                       EmbreeModes modes) {
     std::vector<std::unique_ptr<Rival>> rivals;
-    rivals.push_back(std::make_unique<EmbreeRival<SingleRays>>(triangles, "tri"));
-    rivals.push_back(std::make_unique<EmbreeRival<PacketRays<8>>>(triangles, "tri"));
-    if (triangles->has_wide_registers()) {
-        rivals.push_back(std::make_unique<EmbreeRival<PacketRays<16>>>(triangles, "tri"));
+    if (modes == EmbreeModes::None) return rivals;
+    if (modes != EmbreeModes::Grid) {
+        Modes triangles(surface, EmbreeGeometry::Triangles, rivals);
+        if (modes == EmbreeModes::All) {
+            triangles.add_all();
+        } else {
+            triangles.add<PacketRays<4>>(FirstHit::Incoherent);
+            triangles.add_both<PacketRays<8>>();
+            triangles.add<PacketRays<8, true>>(FirstHit::Incoherent);
+            if (triangles.scene->has(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) {
+                triangles.add_both<PacketRays<16>>();
+            }
+        }
     }
-    rivals.push_back(std::make_unique<EmbreeRival<PacketRays<8>>>(grid, "grid"));
+    Modes grid(surface, EmbreeGeometry::Grid, rivals);
+    if (modes == EmbreeModes::All) {
+        grid.add_all();
+    } else {
+        grid.add_both<PacketRays<8>>();
+    }
     return rivals;
 }
 

@@ -1,77 +1,89 @@
 // SPDX-License-Identifier: Apache-2.0
+// The product as a rival: what measure() does for one layer, without what it does once per run.
+// Launch points, order counts, exact energies and error bars are part of its time.
+#include "clocks.h"
 #include "rival.h"
 
-#include <asperity/tracing/tracer.h>
+#include <asperity/core/directions.h>
+#include <asperity/core/energy.h>
+#include <asperity/gonio/follow.h>
 
 #include <algorithm>
-#include <chrono>
-#include <span>
 
 namespace asperity::bench {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+/// As in measure().
+constexpr std::uint64_t kBatches = 32, kLargestBatch = 1 << 18, kChunk = 1024;
+
+DetectorSettings detector_settings() {
+    DetectorSettings settings;
+    settings.kind = DetectorKind::EqualArea;
+    settings.resolution = DirectionCells::kColumns;
+    return settings;
+}
 
 class OwnRival : public Rival {
   public:
     OwnRival(const Heightfield& surface, int threads)
-        : begin_(Clock::now()),
+        : begin_(wall_seconds()),
+          surface_(surface),
           tracer_(surface, threads),
-          build_seconds_(std::chrono::duration<double>(Clock::now() - begin_).count()) {}
+          fresnel_(OpticsSettings{}),
+          detector_(detector_settings()),
+          build_seconds_(wall_seconds() - begin_) {}
 
     std::string name() const override { return "asperity"; }
     std::size_t memory_bytes() const override { return tracer_.memory_bytes(); }
     double build_seconds() const override { return build_seconds_; }
+    bool follows_points() const override { return false; }
 
-    Tally follow(const Workload& workload) const override {
-        Tally tally;
-        std::vector<Ray> rays(kBatch);
-        std::vector<RayEnd> ends(kBatch);
-        for (std::size_t first = 0; first < workload.launch.size(); first += kBatch) {
-            const std::size_t count = std::min(kBatch, workload.launch.size() - first);
-            for (std::size_t k = 0; k < count; ++k) {
-                const Launch& at = workload.launch[first + k];
-                rays[k] = {at.i,
-                           at.j,
-                           static_cast<double>(at.u),
-                           static_cast<double>(at.v),
-                           static_cast<double>(tracer_.max_height()),
-                           workload.direction,
-                           -1};
+    Tally run(const Workload& workload) const override {
+        const std::uint64_t rays = workload.own_paths;
+        const std::uint64_t batches =
+            std::max(std::min(kBatches, rays), (rays + kLargestBatch - 1) / kLargestBatch);
+        const int orders = DetectorSettings{}.orders;
+        const Incidence light{1, radians(workload.theta_deg), radians(kPhiDeg), false};
+        const Scene scene{tracer_, fresnel_, detector_, workload.bounces, false};
+        LayerSums layer_sums(detector_.cells(), 1, orders, workload.bounces,
+                             (rays + batches - 1) / batches);
+        BatchSums sums(detector_.cells(), 1, orders, workload.bounces);
+        for (std::uint64_t b = 0; b < batches; ++b) {
+            const std::uint64_t size = rays / batches + (b < rays % batches ? 1 : 0);
+            const LaunchBatch batch(surface_, static_cast<double>(tracer_.max_height()), light,
+                                    LaunchPattern::LowDiscrepancy, size, workload.seed, 0,
+                                    static_cast<std::uint32_t>(b));
+            for (std::uint64_t first = 0; first < size; first += kChunk) {
+                follow(scene, batch, first, std::min(first + kChunk, size), sums);
             }
-            follow_batch(rays, ends, count, workload.bounces, tally);
+            layer_sums.add(sums);
+            sums.clear();
         }
-        return tally;
+        Layer layer;
+        layer_sums.write(layer);
+        return tally_of(layer);
     }
 
   private:
-    void follow_batch(std::span<Ray> rays, std::span<RayEnd> ends, std::size_t alive, int limit,
-                      Tally& tally) const {
-        for (int bounces = 0; alive > 0; ++bounces) {
-            tracer_.trace(rays.first(alive), ends.first(alive));
-            tally.add_segments(alive);
-            std::size_t kept = 0;
-            for (std::size_t k = 0; k < alive; ++k) {
-                Ray& ray = rays[k];
-                if (ends[k] == RayEnd::Escaped) {
-                    tally.add_escape(ray.direction.x, ray.direction.y, bounces);
-                } else if (ends[k] != RayEnd::Hit) {
-                    tally.add_lost();
-                } else if (bounces == limit) {
-                    tally.add_truncated();
-                } else {
-                    const Vec3 n = tracer_.normal(ray);
-                    ray.direction = ray.direction - 2 * dot(ray.direction, n) * n;
-                    rays[kept++] = ray;
-                }
-            }
-            alive = kept;
+    Tally tally_of(const Layer& layer) const {
+        Tally tally;
+        const auto cells = static_cast<std::size_t>(detector_.cells());
+        for (std::size_t k = 0; k < layer.energy.size(); ++k) {
+            tally.add_escapes(static_cast<int>(k % cells), layer.energy[k] / kRayEnergy);
         }
+        tally.add_truncated(layer.truncated[0] / kRayEnergy - layer.stuck, 0);
+        tally.add_lost(layer.stuck);
+        tally.add_reflections(layer.reflections);
+        tally.add_segments(layer.segments);
+        return tally;
     }
 
-    Clock::time_point begin_;
+    double begin_;
+    const Heightfield& surface_;
     Tracer tracer_;
+    Fresnel fresnel_;
+    Detector detector_;
     double build_seconds_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "tally.h"
 #include "workload.h"
 
 #include <cstddef>
@@ -16,23 +17,39 @@ class Rival {
     virtual ~Rival() = default;
 
     virtual std::string name() const = 0;
-    /// Follows every path to its end, on the calling thread.
-    virtual Tally follow(const Workload& workload) const = 0;
+    /// Traces the workload, on the calling thread.
+    virtual Tally run(const Workload& workload) const = 0;
     /// Bytes kept for tracing, beside the heights.
     virtual std::size_t memory_bytes() const = 0;
     /// Wall-clock time it took to make ready, with all threads of the machine.
-    virtual double build_seconds() const = 0;
+    virtual double build_seconds() const { return 0; }
+    /// True if the paths start at Workload::points.
+    virtual bool follows_points() const { return true; }
 };
 
-/// Asperity's own tracer.
+/// Asperity's product: launches, traces, sorts and sums as measure() does.
 std::unique_ptr<Rival> make_own_rival(const Heightfield& surface, int threads);
 
-/// Embree 3: the surface as triangles, traced by single rays and by packets of 8 (and 16 where the
-/// machine has registers as wide), and as a grid geometry, traced by packets of 8.
-std::vector<std::unique_ptr<Rival>> make_embree_rivals(const Heightfield& surface);
+/// Asperity's plain tracer, the readable twin of the fast one, from the given points.
+std::unique_ptr<Rival> make_plain_rival(const Heightfield& surface, int threads);
 
-/// Paths a rival has in flight at a time: enough to sort survivors into full packets, few enough to
-/// stay in the cache. The same for all.
+/// The marching of the thesis. The surface must have Diagonal::Anti and cells of side 1.
+std::unique_ptr<Rival> make_thesis_rival(const Heightfield& surface);
+
+/// Which ways to launch rays at Embree take part.
+enum class EmbreeModes {
+    None,
+    Grid,   ///< the fastest of those that need little memory
+    Usual,  ///< those that have been seen to win
+    All,
+};
+
+/// Embree 3: the surface as triangles or as a grid geometry; single rays, packets and streams.
+std::vector<std::unique_ptr<Rival>> make_embree_rivals(const Heightfield& surface,
+                                                       EmbreeModes modes);
+
+/// Paths a competitor has in flight at a time: enough to sort survivors into full packets, few
+/// enough to stay in the cache. The same for all.
 inline constexpr std::size_t kBatch = 4096;
 
 }  // namespace asperity::bench

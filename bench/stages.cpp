@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where does the time of a whole run go? The stages of `asperity simulate -o FILE` with default
+// settings, on the wall clock, with all threads.
+#include "averages.h"
+#include "clocks.h"
+#include "product_run.h"
+#include "product_tasks.h"
+#include "surfaces.h"
+
+#include <asperity/io/result_file.h>
+#include <asperity/io/surface_files.h>
+#include <asperity/surface/statistics.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+namespace asperity::bench {
+
+namespace {
+
+struct Options {
+    std::vector<std::string> surfaces = {"thesis-0.2", "gaussian-0.3"};
+    int size = SurfaceSettings{}.size;
+    double jitter = RunSettings{}.jitter;
+    int threads = 0;
+    int repetitions = 5;
+};
+
+enum Stage : std::size_t { kSurface, kSetup, kTracing, kBinning, kStatistics, kSaving, kStages };
+constexpr const char* kNames[kStages] = {"surface", "set-up",     "tracing",
+                                         "binning", "statistics", "saving"};
+using Seconds = std::array<double, kStages>;
+
+/// One run, stage by stage. Binning and merging have no clock of their own: they are the time that
+/// tracing the same rays into one small detector and one order saves.
+Seconds run_once(const Experiment& experiment, int threads, const std::string& path) {
+    Seconds seconds{};
+    double last = wall_seconds();
+    const auto lap = [&last] {
+        const double now = wall_seconds(), passed = now - last;
+        last = now;
+        return passed;
+    };
+    Run run(threads);
+    const Heightfield surface = io::load_surface(experiment.surface, run);
+    seconds[kSurface] = lap();
+    statistics(surface, run.threads());
+    const double one_statistics = lap();
+
+    const Measurement m = measure(surface, experiment, run);
+    const double measuring = lap();
+    io::save_measurement(m, path);
+    io::checksum(m);
+    seconds[kSaving] = lap();
+
+    Experiment coarse = experiment;
+    coarse.detector.resolution = 4;
+    coarse.detector.orders = 1;
+    const Measurement few_cells = measure(surface, coarse, run);
+    seconds[kBinning] = std::max(0.0, m.trace_seconds - few_cells.trace_seconds);
+    seconds[kTracing] = m.trace_seconds - seconds[kBinning];
+    // Once before measuring, for the line about the surface, and once in measure()
+    seconds[kStatistics] = 2 * one_statistics;
+    seconds[kSetup] = std::max(0.0, measuring - m.trace_seconds - one_statistics);
+    return seconds;
+}
+
+Report run(const Options& options) {
+    Report report;
+    report.table = fmt::format(
+        "Stages of a run of 15 layers, N = {}, {} rays a cell: milliseconds (share)\n{:<14}",
+        options.size, options.jitter, "surface");
+    for (const char* name : kNames) report.table += fmt::format("{:>17}", name);
+    report.table += fmt::format("{:>10}\n", "all");
+    const std::string path =
+        (std::filesystem::temp_directory_path() / "asperity_stages.asperity").string();
+    for (const std::string& name : options.surfaces) {
+        Experiment experiment;
+        experiment.surface = surface_settings(name, options.size);
+        experiment.run.jitter = options.jitter;
+        std::array<std::vector<double>, kStages> all;
+        for (int repetition = 0; repetition < options.repetitions; ++repetition) {
+            const Seconds seconds = run_once(experiment, options.threads, path);
+            for (std::size_t s = 0; s < kStages; ++s) all[s].push_back(seconds[s]);
+        }
+        std::filesystem::remove(path);
+
+        Seconds middle{};
+        double total = 0;
+        for (std::size_t s = 0; s < kStages; ++s) total += middle[s] = median(all[s]);
+        nlohmann::ordered_json figures = {{"surface", name}, {"size", options.size}};
+        report.table += fmt::format("{:<14}", name);
+        for (std::size_t s = 0; s < kStages; ++s) {
+            report.table +=
+                fmt::format("{:>9.1f} ({:>4.1f}%)", 1e3 * middle[s], 100 * middle[s] / total);
+            figures["seconds"][kNames[s]] = middle[s];
+        }
+        report.table += fmt::format("{:>10.1f}\n", 1e3 * total);
+        figures["share_of_tracing"] = middle[kTracing] / total;
+        report.figures.push_back(std::move(figures));
+    }
+    return report;
+}
+
+}  // namespace
+
+Task add_stages(CLI::App& program) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* app = program.add_subcommand("stages", "where the time of a whole run goes");
+    app->add_option("--surface", options->surfaces)
+        ->check(CLI::IsMember(surface_names()))
+        ->delimiter(',')
+        ->capture_default_str();
+    app->add_option("--size", options->size, "samples on a side")
+        ->check(CLI::Range(2, kMaxSurfaceSide))
+        ->capture_default_str();
+    app->add_option("--jitter", options->jitter, "launch points per cell")->capture_default_str();
+    app->add_option("--threads", options->threads, "0: all");
+    app->add_option("--repetitions", options->repetitions)
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    return {app, [options] { return bench::run(*options); }};
+}
+
+}  // namespace asperity::bench
