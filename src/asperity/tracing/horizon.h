@@ -25,7 +25,9 @@ class Horizon {
     /// Slope of the largest byte but one; byte 255 promises nothing.
     static constexpr float kSteepest = 8.0f;
 
-    /// Cost: some hundred cycles a cell. Result does not depend on `threads`.
+    /// Tight within some 0.25 RMS slopes on average on smooth surfaces, a fourth of the slope
+    /// itself on white noise. Cost: about 500 cycles a cell with AVX2; 1.2 MB of workspace a
+    /// thread. The bytes depend neither on `threads` nor on the instruction set.
     Horizon(const PaddedHeights& heights, int threads);
 
     /// Sector of the horizontal direction (x, y), not both zero, in units of length (not cells).

@@ -76,8 +76,8 @@ struct HorizonBlock {
     void load(const PaddedHeights& heights, const TileMaxima& maxima, int i0, int j0);
 };
 
-/// Slopes of all cells of a loaded block, as bytes; `margin` is added for rounding. [horizon_block
-/// kernel, on the widest vectors there are]
+/// Fills in the bytes of all cells of a loaded block, on the widest vectors the machine has.
+/// `margin` is added to every slope for rounding.
 void bound_horizon(const HorizonGeometry& geometry, float margin, HorizonBlock& block);
 
 }  // namespace asperity::detail
