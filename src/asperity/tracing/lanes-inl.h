@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Lanes of paths for the kernels of the wide tracer, once for each instruction set. No operation
+// fuses or approximates, so every instruction set computes the same bits.
+
+#if defined(ASPERITY_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ASPERITY_LANES_INL_H
+#undef ASPERITY_LANES_INL_H
+#else
+#define ASPERITY_LANES_INL_H
+#endif
+
+#include <asperity/tracing/wide.h>
+#include <hwy/highway.h>
+
+#include <array>
+
+HWY_BEFORE_NAMESPACE();
+namespace asperity::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FloatTag = hn::CappedTag<float, 16>;
+using IntTag = hn::RebindToSigned<FloatTag>;
+using HalfTag = hn::Repartition<std::int16_t, FloatTag>;
+using Floats = hn::Vec<FloatTag>;
+using Ints = hn::Vec<IntTag>;
+using Halves = hn::Vec<HalfTag>;
+using Mask = hn::Mask<FloatTag>;
+constexpr FloatTag kFloat;
+constexpr IntTag kInt;
+constexpr HalfTag kHalf;
+constexpr std::size_t kLanes = hn::MaxLanes(kFloat);
+
+// Short names, so that the kernels read like their formulas.
+HWY_INLINE Floats all(float x) {
+    return hn::Set(kFloat, x);
+}
+HWY_INLINE Ints all(std::int32_t x) {
+    return hn::Set(kInt, x);
+}
+HWY_INLINE Floats load(const PerPath<float>& from, std::size_t k) {
+    return hn::Load(kFloat, from.values + k);
+}
+HWY_INLINE Ints load(const PerPath<std::int32_t>& from, std::size_t k) {
+    return hn::Load(kInt, from.values + k);
+}
+HWY_INLINE void store(Floats x, PerPath<float>& to, std::size_t k) {
+    hn::Store(x, kFloat, to.values + k);
+}
+HWY_INLINE void store(Ints x, PerPath<std::int32_t>& to, std::size_t k) {
+    hn::Store(x, kInt, to.values + k);
+}
+HWY_INLINE Floats select(Mask m, Floats yes, Floats no) {
+    return hn::IfThenElse(m, yes, no);
+}
+HWY_INLINE Ints select(Mask m, Ints yes, Ints no) {
+    return hn::IfThenElse(hn::RebindMask(kInt, m), yes, no);
+}
+HWY_INLINE Ints only(Mask m, Ints x) {
+    return hn::IfThenElseZero(hn::RebindMask(kInt, m), x);
+}
+/// Lanes whose sign bit is set.
+HWY_INLINE Mask negative(Floats x) {
+    return hn::MaskFromVec(hn::BitCast(kFloat, hn::BroadcastSignBit(hn::BitCast(kInt, x))));
+}
+/// The lanes k, k + 1, ... below count.
+HWY_INLINE Mask first_lanes(std::size_t k, std::size_t count) {
+    return hn::RebindMask(kFloat, hn::Lt(hn::Iota(kInt, static_cast<std::int32_t>(k)),
+                                         all(static_cast<std::int32_t>(count))));
+}
+HWY_INLINE Floats magnitude(Floats x) {
+    return hn::Abs(x);
+}
+
+// Packed vertices
+HWY_INLINE Ints plus(Ints a, Ints b) {
+    return hn::BitCast(kInt, hn::Add(hn::BitCast(kHalf, a), hn::BitCast(kHalf, b)));
+}
+HWY_INLINE Ints minus(Ints a, Ints b) {
+    return hn::BitCast(kInt, hn::Sub(hn::BitCast(kHalf, a), hn::BitCast(kHalf, b)));
+}
+HWY_INLINE Ints smaller(Ints a, Ints b) {
+    return hn::BitCast(kInt, hn::Min(hn::BitCast(kHalf, a), hn::BitCast(kHalf, b)));
+}
+HWY_INLINE Ints times(std::int32_t n, Ints a) = delete;
+/// n times the vertex `a`, |n a| < 2^15.
+HWY_INLINE Ints times(Ints n, Ints a) {
+    const Ints twice = hn::Or(hn::And(n, all(0xffff)), hn::ShiftLeft<16>(n));
+    return hn::BitCast(kInt, hn::Mul(hn::BitCast(kHalf, twice), hn::BitCast(kHalf, a)));
+}
+HWY_INLINE Ints x_of(Ints vertex) {
+    return hn::ShiftRight<16>(hn::ShiftLeft<16>(vertex));
+}
+HWY_INLINE Ints y_of(Ints vertex) {
+    return hn::ShiftRight<16>(vertex);
+}
+/// x + y * pitch, |pitch| < 2^15.
+HWY_INLINE Ints index_of(Ints vertex, std::int32_t pitch) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
+    Ints unused = hn::Zero(kInt);
+    return hn::ReorderWidenMulAccumulate(kInt, hn::BitCast(kHalf, vertex),
+                                         hn::BitCast(kHalf, all(pack_vertex(1, pitch))),
+                                         hn::Zero(kInt), unused);
+#else
+    return hn::Add(x_of(vertex), hn::Mul(y_of(vertex), all(pitch)));
+#endif
+}
+
+/// Sixteen-bit halves of each block, from several 64-bit words: what the gathers below share.
+template <class T, class Fetch>
+HWY_INLINE auto gather_by_lane(Ints index, Fetch fetch) {
+#if HWY_TARGET == HWY_AVX2
+    // Taken apart by hand: on most processors faster than the gather instruction, which is
+    // microcoded or slowed down by mitigations.
+    const __m128i low = _mm256_castsi256_si128(index.raw);
+    const __m128i high = _mm256_extracti128_si256(index.raw, 1);
+    const std::int64_t i01 = _mm_cvtsi128_si64(low), i23 = _mm_extract_epi64(low, 1);
+    const std::int64_t i45 = _mm_cvtsi128_si64(high), i67 = _mm_extract_epi64(high, 1);
+    const auto first = [&](std::int64_t pair) { return fetch(static_cast<std::int32_t>(pair)); };
+    const auto second = [&](std::int64_t pair) { return fetch(pair >> 32); };
+    if constexpr (sizeof(T) == 4) {
+        return Floats{_mm256_setr_ps(first(i01), second(i01), first(i23), second(i23), first(i45),
+                                     second(i45), first(i67), second(i67))};
+    } else {
+        __m128i bytes = _mm_cvtsi32_si128(first(i01));
+        bytes = _mm_insert_epi8(bytes, second(i01), 1);
+        bytes = _mm_insert_epi8(bytes, first(i23), 2);
+        bytes = _mm_insert_epi8(bytes, second(i23), 3);
+        bytes = _mm_insert_epi8(bytes, first(i45), 4);
+        bytes = _mm_insert_epi8(bytes, second(i45), 5);
+        bytes = _mm_insert_epi8(bytes, first(i67), 6);
+        bytes = _mm_insert_epi8(bytes, second(i67), 7);
+        return Ints{_mm256_cvtepu8_epi32(bytes)};
+    }
+#else
+    alignas(64) std::int32_t at[kLanes];
+    hn::Store(index, kInt, at);
+    using Out = std::conditional_t<sizeof(T) == 4, float, std::int32_t>;
+    alignas(64) Out out[kLanes];
+    for (std::size_t lane = 0; lane < hn::Lanes(kFloat); ++lane) out[lane] = fetch(at[lane]);
+    return hn::Load(hn::Rebind<Out, FloatTag>(), out);
+#endif
+}
+HWY_INLINE Floats gather(const float* from, Ints index) {
+#if HWY_TARGET <= HWY_AVX3
+    return hn::GatherIndex(kFloat, from, index);
+#else
+    return gather_by_lane<float>(index, [from](std::int64_t at) { return from[at]; });
+#endif
+}
+HWY_INLINE Ints gather(const std::int32_t* from, Ints index) {
+    return hn::GatherIndex(kInt, from, index);
+}
+HWY_INLINE Ints gather_bytes(const std::uint8_t* from, Ints index) {
+    return gather_by_lane<std::uint8_t>(index, [from](std::int64_t at) { return int{from[at]}; });
+}
+
+/// Row m of the table lists the lanes of the bit mask m in order.
+template <std::size_t kCount>
+struct alignas(64) LaneTable {
+    std::uint8_t rows[std::size_t{1} << kCount][kCount] = {};
+    constexpr LaneTable() {
+        for (std::size_t mask = 0; mask < std::size_t{1} << kCount; ++mask) {
+            std::size_t k = 0;
+            for (std::size_t lane = 0; lane < kCount; ++lane)
+                if (mask >> lane & 1) rows[mask][k++] = static_cast<std::uint8_t>(lane);
+        }
+    }
+};
+inline constexpr LaneTable<(kLanes <= 8 ? kLanes : 1)> kLaneTable;
+
+/// Writes the chosen lanes of vectors side by side. The choice is made ready once, for all the
+/// vectors of a path. Lanes behind the chosen ones are overwritten too.
+class Packer {
+  public:
+    HWY_INLINE explicit Packer(Mask chosen)
+        : count(hn::CountTrue(kFloat, chosen)), chosen_(chosen) {
+        if constexpr (kLanes <= 8) {
+            std::uint8_t bits[8] = {};
+            hn::StoreMaskBits(kFloat, chosen, bits);
+            const hn::Rebind<std::uint8_t, IntTag> bytes;
+            order_ = hn::PromoteTo(kInt, hn::LoadU(bytes, kLaneTable.rows[bits[0]]));
+        }
+    }
+    HWY_INLINE void operator()(Floats x, PerPath<float>& to, std::size_t at) const {
+        if constexpr (kLanes <= 8)
+            hn::StoreU(hn::TableLookupLanes(x, hn::IndicesFromVec(kFloat, order_)), kFloat,
+                       to.values + at);
+        else
+            hn::CompressStore(x, chosen_, kFloat, to.values + at);
+    }
+    HWY_INLINE void operator()(Ints x, PerPath<std::int32_t>& to, std::size_t at) const {
+        if constexpr (kLanes <= 8)
+            hn::StoreU(hn::TableLookupLanes(x, hn::IndicesFromVec(kInt, order_)), kInt,
+                       to.values + at);
+        else
+            hn::CompressStore(x, hn::RebindMask(kInt, chosen_), kInt, to.values + at);
+    }
+    const std::size_t count;
+
+  private:
+    Mask chosen_;
+    Ints order_ = hn::Zero(kInt);
+};
+
+}  // namespace asperity::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

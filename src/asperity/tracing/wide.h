@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the wide tracer works on: thousands of paths at a time, one array per quantity, so that
+// the lanes of a vector are neighbours in memory. docs/performance.md explains the design.
+//
+// Vertices of the grid are packed into 32 bits, x in the lower and y in the upper 16, counted from
+// the middle of the surface, so that one instruction turns them into an index.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace asperity {
+
+/// Paths in flight at a time: enough to keep the lanes full when most have left, few enough for
+/// the second cache.
+inline constexpr std::size_t kWave = 1024;
+
+/// One value per path. The rest of the last vector, and a whole one more, may be overwritten.
+template <class T>
+struct alignas(64) PerPath {
+    static constexpr std::size_t kSlack = 64;
+    T values[kWave + kSlack] = {};
+    T& operator[](std::size_t k) { return values[k]; }
+    T operator[](std::size_t k) const { return values[k]; }
+    operator T*() { return values; }
+    operator const T*() const { return values; }
+};
+
+inline std::int32_t pack_vertex(int x, int y) {
+    return static_cast<std::int32_t>((static_cast<std::uint32_t>(y) << 16) |
+                                     (static_cast<std::uint32_t>(x) & 0xffffu));
+}
+inline int vertex_x(std::int32_t packed) {
+    return static_cast<std::int16_t>(packed & 0xffff);
+}
+inline int vertex_y(std::int32_t packed) {
+    return packed >> 16;
+}
+
+/// Directions of travel, unit length, and what every step needs of them.
+struct Directions {
+    PerPath<float> x, y, z;
+    PerPath<float> level;          ///< length of the horizontal part
+    PerPath<std::int32_t> sector;  ///< Horizon::sector_of
+    PerPath<std::int32_t> path;    ///< which path this is; stays the same through all bounces
+};
+
+/// Points on facets. A facet is known by its right-angled corner O and by `side`: +1 for the lower
+/// triangle O, O + (1, 0), O + (0, 1), -1 for the upper one O, O - (1, 0), O - (0, 1).
+struct FacetPoints {
+    std::size_t count = 0;
+    PerPath<std::int32_t> corner;           ///< O
+    PerPath<float> side;                    ///< +1, -1
+    PerPath<float> u, v;                    ///< from O, in cells, along side * x and side * y
+    PerPath<float> height, rise_u, rise_v;  ///< of O, and from there to the other two corners
+    PerPath<std::int32_t> ray;              ///< index into the Directions the path came with
+};
+
+/// Paths under way between the facets; see wide_walk-inl.h.
+struct Walkers {
+    std::size_t count = 0;
+    PerPath<std::int32_t> a;               ///< vertex A, left of the path
+    PerPath<std::int32_t> step_x, step_y;  ///< the two ways to the next rhombus
+    PerPath<float> w, w_x, w_y;            ///< distance of A from the path's line; per step
+    PerPath<float> z, z_x, z_y;            ///< height of the path beside A; per step
+    PerPath<float> g_a, g_b;               ///< surface above path at A and at B
+    PerPath<float> climb, level;           ///< of the direction: vertical and horizontal part
+    PerPath<float> spared;                 ///< -0: the first side edge belongs to the own facet
+    PerPath<std::int32_t> sector, ray;
+};
+
+/// Triangles that paths have fallen into, and the lines of the paths: direction (du, dv) in cells,
+/// height per cell, and beside the corner O the distance `w` from the line and the height `z`.
+struct TriangleHits {
+    std::size_t count = 0;
+    PerPath<std::int32_t> corner;
+    PerPath<float> side, w, z;
+    PerPath<float> du, dv, k_x, k_y;
+    PerPath<std::int32_t> ray;
+};
+
+/// Paths that meet nothing any more: their directions, and for finite patches where they are, in
+/// cells from the middle and in height.
+struct Escapes {
+    std::size_t count = 0;
+    PerPath<float> x, y, z;
+    PerPath<std::int32_t> path;
+    PerPath<float> at_x, at_y, at_z;
+};
+
+/// The same while they are only known by their index into Directions.
+struct Leavers {
+    std::size_t count = 0;
+    PerPath<std::int32_t> ray;
+    PerPath<float> at_x, at_y, at_z;
+};
+
+}  // namespace asperity

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/tracing/horizon.h>
+#include <asperity/tracing/padded_heights.h>
+
+#include <cstdint>
+
+namespace asperity {
+
+/// The surface as the kernels of the wide tracer see it. Refers to heights and horizon.
+struct WideGrid {
+    WideGrid(const PaddedHeights& heights, const Horizon& horizon);
+
+    const float* middle;  ///< sample (middle_x, middle_y): packed vertices are counted from here
+    int pitch;            ///< samples from row to row
+    int middle_x, middle_y, cells_x, cells_y;
+    bool periodic;
+    float per_x, per_y;  ///< cells per unit of length
+    float max_height;
+    float steepest;               ///< no facet is steeper: whoever climbs more steeply escapes
+    const std::uint8_t* horizon;  ///< the 16 bytes of the middle cell's block
+    int horizon_pitch, pool_shift;
+    float longest_leap;  ///< rhombi a path may leap over, so that one wrap brings it home
+};
+
+}  // namespace asperity

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/tracing/launch_line.h>
+#include <asperity/tracing/row_tops.h>
+#include <asperity/tracing/wide.h>
+#include <asperity/tracing/wide_grid.h>
+
+namespace asperity {
+
+/// Rays that fly side by side.
+inline constexpr int kLaunchGroup = 16;
+
+/// Where rays are launched.
+struct LaunchPlace {
+    const WideGrid* grid;
+    const PaddedHeights* heights;
+    const RowTops* tops;  ///< windows of kLaunchGroup + kReach by kReach
+};
+
+/// Rays of one line that have hit: which triangle, as round * kEdges + edge, and the cell that the
+/// vertices of the triangle are counted from, from the middle of the surface.
+struct LaunchHits {
+    std::size_t count = 0;
+    PerPath<std::int32_t> triangle, x, y, ray;
+};
+
+}  // namespace asperity

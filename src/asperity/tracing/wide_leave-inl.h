@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// From a facet, or from above, onto the way: docs/performance.md, "The walk".
+
+#if defined(ASPERITY_WIDE_LEAVE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ASPERITY_WIDE_LEAVE_INL_H
+#undef ASPERITY_WIDE_LEAVE_INL_H
+#else
+#define ASPERITY_WIDE_LEAVE_INL_H
+#endif
+
+#include <asperity/tracing/ground-inl.h>
+#include <asperity/tracing/wide_kernels.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace asperity::HWY_NAMESPACE {
+
+/// The cell a facet lies in.
+HWY_INLINE Ints cell_of(Ints corner, Floats side) {
+    const Ints upper = hn::BroadcastSignBit(hn::BitCast(kInt, side));
+    return minus(corner, hn::And(all(pack_vertex(1, 1)), upper));
+}
+
+/// Distance of A from the line, so that A lies left of it and B, w_ab further right, right of it.
+HWY_INLINE Floats clamp_between(Floats w, Floats w_ab) {
+    return hn::Min(hn::Max(w, hn::Zero(kFloat)), hn::Mul(w_ab, all(-0.9999999f)));
+}
+
+HWY_INLINE Floats height_at(Floats height, Floats rise_u, Floats rise_v, Floats u, Floats v) {
+    return hn::Add(height, hn::Add(hn::Mul(rise_u, u), hn::Mul(rise_v, v)));
+}
+
+/// Parts the paths that are free for certain from those that have to be followed: `points` and
+/// `directions` keep the latter, side by side; `escapes` gets the others.
+void PartFree(const WideGrid& grid, FacetPoints& points, Directions& directions, Escapes& escapes) {
+    const Ground ground(grid);
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < points.count; k += kLanes) {
+        const Mask valid = first_lanes(k, points.count);
+        const Ints corner = load(points.corner, k);
+        const Floats side = load(points.side, k), u = load(points.u, k), v = load(points.v, k);
+        const Floats height = load(points.height, k), rise_u = load(points.rise_u, k),
+                     rise_v = load(points.rise_v, k);
+        const Floats x = load(directions.x, k), y = load(directions.y, k),
+                     z = load(directions.z, k), level = load(directions.level, k);
+        const Ints path = load(directions.path, k);
+
+        const Ints sector = sector_of(x, y);
+        const Ints cell = only(valid, ground.wrap(cell_of(corner, side)));
+        const Floats slope = hn::Min(ground.horizon(cell, sector), ground.steepest);
+        const Floats here = height_at(height, rise_u, rise_v, u, v);
+        const Mask on_top = hn::And(hn::Ge(z, hn::Zero(kFloat)), hn::Ge(here, ground.max_height));
+        const Mask free = hn::And(valid, hn::Or(on_top, hn::Gt(z, hn::Mul(slope, level))));
+
+        const Packer pack_free(free);
+        pack_free(x, escapes.x, escapes.count);
+        pack_free(y, escapes.y, escapes.count);
+        pack_free(z, escapes.z, escapes.count);
+        pack_free(path, escapes.path, escapes.count);
+        if (!grid.periodic) {
+            const Floats at_x = hn::Add(hn::ConvertTo(kFloat, x_of(corner)), hn::Mul(side, u));
+            const Floats at_y = hn::Add(hn::ConvertTo(kFloat, y_of(corner)), hn::Mul(side, v));
+            pack_free(at_x, escapes.at_x, escapes.count);
+            pack_free(at_y, escapes.at_y, escapes.count);
+            pack_free(here, escapes.at_z, escapes.count);
+        }
+        escapes.count += pack_free.count;
+
+        const Packer pack(hn::AndNot(free, valid));
+        pack(corner, points.corner, kept);
+        pack(side, points.side, kept);
+        pack(u, points.u, kept);
+        pack(v, points.v, kept);
+        pack(height, points.height, kept);
+        pack(rise_u, points.rise_u, kept);
+        pack(rise_v, points.rise_v, kept);
+        pack(x, directions.x, kept);
+        pack(y, directions.y, kept);
+        pack(z, directions.z, kept);
+        pack(level, directions.level, kept);
+        pack(sector, directions.sector, kept);
+        pack(path, directions.path, kept);
+        kept += pack.count;
+    }
+    points.count = kept;
+}
+
+/// Sets every path onto its strip of rhombi. Paths start on their facets, or over them at the
+/// heights `start_height`.
+///
+/// The picture is turned by half a turn where du < 0. Then du >= 0, and the edges a path crosses
+/// every second time are the diagonals (dv >= 0), the x lines (-du <= dv < 0) or the y lines (dv <
+/// -du). Two of them and what lies between are a rhombus; the next edge of the kind lies one of two
+/// steps ahead, step_x or step_y.
+void SetOut(const WideGrid& grid, const FacetPoints& points, const Directions& directions,
+            const PerPath<float>* start_height, Walkers& walkers) {
+    const Ground ground(grid);
+    const Floats zero = hn::Zero(kFloat), one = all(1.0f);
+    const Ints v10 = all(pack_vertex(1, 0)), v01 = all(pack_vertex(0, 1)),
+               v11 = all(pack_vertex(1, 1)), v1m = all(pack_vertex(1, -1)),
+               v0m = all(pack_vertex(0, -1)), nothing = hn::Zero(kInt);
+    for (std::size_t k = 0; k < points.count; k += kLanes) {
+        const Floats side = load(points.side, k);
+        const Floats h_o = load(points.height, k);
+        const Floats rise_u = load(points.rise_u, k), rise_v = load(points.rise_v, k);
+        const Floats u_o = load(points.u, k), v_o = load(points.v, k);
+        const Floats x = load(directions.x, k), y = load(directions.y, k),
+                     z = load(directions.z, k);
+        const Floats here =
+            start_height ? load(*start_height, k) : height_at(h_o, rise_u, rise_v, u_o, v_o);
+
+        // Turn the picture so that du >= 0
+        const Line line = line_of(ground, x, y, z);
+        const Mask turned = hn::Lt(line.du, zero);
+        const Floats turn = select(turned, all(-1.0f), one);
+        const Floats du = hn::Mul(turn, line.du), dv = hn::Mul(turn, line.dv);
+        const Floats k_x = hn::Mul(turn, line.k_x), k_y = hn::Mul(turn, line.k_y);
+        const Mask lower = hn::Gt(hn::Mul(turn, side), zero);
+        const Floats u = select(lower, u_o, hn::Sub(one, u_o));
+        const Floats v = select(lower, v_o, hn::Sub(one, v_o));
+
+        // The two steps, as vertices, across the line and in height
+        const Mask by_diagonals = hn::Ge(dv, zero);
+        const Mask by_rows = hn::AndNot(by_diagonals, hn::Lt(hn::Add(du, dv), zero));
+        const Floats sum = hn::Add(du, dv), k_diff = hn::Sub(k_x, k_y);
+        const Ints step_x = select(by_diagonals, v10, select(by_rows, v0m, v1m));
+        const Ints step_y = select(by_diagonals, v01, select(by_rows, v1m, v10));
+        const Floats w_x = hn::Neg(select(by_diagonals, dv, select(by_rows, du, sum)));
+        const Floats w_y = select(by_diagonals, du, select(by_rows, hn::Neg(sum), hn::Neg(dv)));
+        const Floats z_x = select(by_diagonals, k_x, select(by_rows, hn::Neg(k_y), k_diff));
+        const Floats z_y = select(by_diagonals, k_y, select(by_rows, k_diff, k_x));
+
+        // Vertex A of the rhombus, left of the path; B = A + step_x - step_y lies right of it
+        const Ints a_in_cell =
+            select(lower, select(by_rows, v10, v01), select(by_diagonals, v01, v11));
+        const Floats a_u =
+            select(lower, hn::IfThenElseZero(by_rows, one), hn::IfThenZeroElse(by_diagonals, one));
+        const Floats a_v = hn::IfThenZeroElse(hn::And(lower, by_rows), one);
+        const Floats w = hn::Sub(hn::Mul(du, hn::Sub(a_v, v)), hn::Mul(dv, hn::Sub(a_u, u)));
+        const Floats w_ab = hn::Sub(w_x, w_y);
+        const Floats z_a =
+            hn::Add(here, hn::Add(hn::Mul(k_x, hn::Sub(a_u, u)), hn::Mul(k_y, hn::Sub(a_v, v))));
+        const Floats h_x = hn::Add(h_o, rise_u), h_y = hn::Add(h_o, rise_v);
+        const Floats h_ahead = select(by_rows, h_x, h_y), h_back = select(by_diagonals, h_x, h_o);
+        const Ints cell = cell_of(load(points.corner, k), side);
+        const Mask second = hn::Xor(lower, hn::Or(by_diagonals, by_rows));
+
+        store(plus(cell, select(turned, minus(v11, a_in_cell), a_in_cell)), walkers.a, k);
+        store(select(turned, minus(nothing, step_x), step_x), walkers.step_x, k);
+        store(select(turned, minus(nothing, step_y), step_y), walkers.step_y, k);
+        store(clamp_between(w, w_ab), walkers.w, k);
+        store(w_x, walkers.w_x, k);
+        store(w_y, walkers.w_y, k);
+        store(z_a, walkers.z, k);
+        store(z_x, walkers.z_x, k);
+        store(z_y, walkers.z_y, k);
+        store(hn::Sub(select(lower, h_ahead, h_back), z_a), walkers.g_a, k);
+        store(hn::Sub(select(lower, h_back, h_ahead), hn::Add(z_a, hn::Sub(z_x, z_y))), walkers.g_b,
+              k);
+        store(z, walkers.climb, k);
+        store(load(directions.level, k), walkers.level, k);
+        store(hn::IfThenElseZero(second, all(-0.0f)), walkers.spared, k);
+        store(load(directions.sector, k), walkers.sector, k);
+        store(hn::Iota(kInt, static_cast<std::int32_t>(k)), walkers.ray, k);
+    }
+    walkers.count = points.count;
+}
+
+}  // namespace asperity::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/tracing/wide_tracer.h>
+
+#include <asperity/tracing/wide_kernels.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace asperity {
+
+namespace {
+
+/// Horizontal part given to the vertical rays of a wave that holds others too.
+constexpr float kAlmostStraight = 1e-12f;
+
+}  // namespace
+
+Wave::Wave() : work_(std::make_unique<WaveWork>()) {}
+Wave::~Wave() = default;
+Wave::Wave(Wave&&) noexcept = default;
+Wave& Wave::operator=(Wave&&) noexcept = default;
+
+WideTracer::WideTracer(const Heightfield& surface, int threads)
+    : surface_cells_x_(surface.cells_x()),
+      surface_cells_y_(surface.cells_y()),
+      heights_(surface, threads),
+      horizon_(heights_, threads),
+      grid_(heights_, horizon_) {
+    if (heights_.periodic())
+        tops_.emplace(heights_, kLaunchGroup + LaunchLine::kReach, LaunchLine::kReach, threads);
+}
+
+std::size_t WideTracer::memory_bytes() const {
+    return heights_.memory_bytes() + horizon_.memory_bytes() + (tops_ ? tops_->memory_bytes() : 0);
+}
+
+void WideTracer::clear(Wave& wave) const {
+    wave.points.count = wave.escapes.count = wave.edge_count = wave.stuck_count = 0;
+    wave.work_->hits.count = 0;
+}
+
+void WideTracer::launch(LaunchLine& line, int i, int j, int count, int first, Wave& wave) const {
+    LaunchHits& launched = wave.work_->launched;
+    TriangleHits& hits = wave.work_->hits;
+    launched.count = 0;
+    launch_side_by_side({&grid_, &heights_, &*tops_}, line, i, j, count, first, launched);
+
+    // Look the triangles up in the line's way
+    const float du = static_cast<float>(line.du()), dv = static_cast<float>(line.dv());
+    const float k_x = static_cast<float>(line.k_x()), k_y = static_cast<float>(line.k_y());
+    for (std::size_t k = 0; k < launched.count; ++k) {
+        const auto edge = static_cast<std::size_t>(launched.triangle[k]);
+        const LaunchLine::Triangle& t =
+            line.round(edge / LaunchLine::kEdges).triangles[edge % LaunchLine::kEdges];
+        const std::size_t to = hits.count + k;
+        hits.corner[to] = pack_vertex(launched.x[k] + t.x, launched.y[k] + t.y);
+        hits.side[to] = t.side;
+        hits.w[to] = t.w;
+        hits.z[to] = t.z;
+        hits.du[to] = du;
+        hits.dv[to] = dv;
+        hits.k_x[to] = k_x;
+        hits.k_y[to] = k_y;
+        hits.ray[to] = launched.ray[k];
+    }
+    hits.count += launched.count;
+}
+
+void WideTracer::launch_down(double u, double v, int i, int j, int count, int first,
+                             Wave& wave) const {
+    launch_straight_down(grid_, static_cast<float>(u), static_cast<float>(v), i, j, count, first,
+                         wave.points);
+}
+
+void WideTracer::land(Wave& wave) const {
+    if (wave.work_->hits.count > 0) asperity::land(grid_, wave.work_->hits, wave.points);
+}
+
+void WideTracer::place(const Ray& ray, std::size_t k, Wave& wave) const {
+    const bool upper = ray.facet >= 0        ? ray.facet == static_cast<int>(Triangle::Upper)
+                       : heights_.mirrored() ? ray.u <= ray.v
+                                             : ray.u + ray.v >= 1;
+    const int corner = upper ? 1 : 0, step = upper ? -1 : 1;
+    const int i = heights_.mirrored() ? heights_.cells_x() - 1 - ray.i : ray.i;
+    const double u = heights_.mirrored() ? 1 - ray.u : ray.u;
+    const int x = i + corner, y = ray.j + corner;
+    FacetPoints& p = wave.points;
+    p.corner[k] = pack_vertex(x - grid_.middle_x, y - grid_.middle_y);
+    p.side[k] = static_cast<float>(step);
+    p.u[k] = static_cast<float>(upper ? 1 - u : u);
+    p.v[k] = static_cast<float>(upper ? 1 - ray.v : ray.v);
+    p.height[k] = heights_.at(x, y);
+    p.rise_u[k] = heights_.at(x + step, y) - p.height[k];
+    p.rise_v[k] = heights_.at(x, y + step) - p.height[k];
+    p.ray[k] = static_cast<std::int32_t>(k);
+    wave.work_->start_height[k] = static_cast<float>(ray.z);
+}
+
+void WideTracer::set_direction(Directions& to, std::size_t k, Vec3 d, std::int32_t path) const {
+    const float x = static_cast<float>(mirrored() ? -d.x : d.x), y = static_cast<float>(d.y);
+    to.x[k] = x;
+    to.y[k] = y;
+    to.z[k] = static_cast<float>(d.z);
+    to.level[k] = std::sqrt(x * x + y * y);
+    to.sector[k] = Horizon::sector_of(x, y);
+    to.path[k] = path;
+}
+
+void WideTracer::enter(std::span<const Ray> rays, Wave& wave) const {
+    clear(wave);
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        set_direction(wave.arriving, k, rays[k].direction, static_cast<std::int32_t>(k));
+        place(rays[k], k, wave);
+    }
+    wave.points.count = rays.size();
+    fall(wave);
+}
+
+/// Moves paths from over wave.points to their first facets.
+void WideTracer::fall(Wave& wave) const {
+    // Straight down there is no way to go: they are there
+    Directions& d = wave.arriving;
+    const std::size_t count = wave.points.count;
+    bool straight = true;
+    for (std::size_t k = 0; k < count; ++k) straight = straight && !(d.level[k] > 0);
+    if (straight) return;
+    for (std::size_t k = 0; k < count; ++k)
+        if (!(d.level[k] > 0)) d.x[k] = d.level[k] = kAlmostStraight;
+    set_out(grid_, wave.points, d, &wave.work_->start_height, wave.work_->walkers);
+    walk(wave, true);
+}
+
+void WideTracer::leave(Wave& wave) const {
+    wave.escapes.count = wave.edge_count = wave.stuck_count = 0;
+    std::swap(wave.arriving, wave.leaving);
+    part_free(grid_, wave.points, wave.arriving, wave.escapes);
+    set_out(grid_, wave.points, wave.arriving, nullptr, wave.work_->walkers);
+    walk(wave, false);
+}
+
+void WideTracer::walk(Wave& wave, bool from_above) const {
+    constexpr int kMostRounds = Tracer::kMaxCrossings / (2 * kRhombiPerRound);
+    WaveWork& work = *wave.work_;
+    work.raw.count = work.leavers.count = work.hits.count = 0;
+    asperity::walk(grid_, from_above, kMostRounds, work.walkers, work.raw, work.leavers);
+    for (std::size_t k = 0; k < work.walkers.count; ++k)
+        wave.stuck[wave.stuck_count++] =
+            wave.arriving.path[static_cast<std::size_t>(work.walkers.ray[k])];
+    release(work.leavers, wave.arriving, !heights_.periodic(), wave.escapes);
+    if (!heights_.periodic()) settle_edges(wave);
+    identify(grid_, work.raw, wave.arriving, work.hits);
+    asperity::land(grid_, work.hits, wave.points);
+}
+
+void WideTracer::settle_edges(Wave& wave) const {
+    // A path over a finite patch is out when it passes the side above the highest point
+    const auto until_side = [](double at, double direction, double first, double last) {
+        return direction > 0   ? (last - at) / direction
+               : direction < 0 ? (first - at) / direction
+                               : std::numeric_limits<double>::infinity();
+    };
+    Escapes& e = wave.escapes;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < e.count; ++k) {
+        const double du = double{e.x[k]} / heights_.dx(), dv = double{e.y[k]} / heights_.dy();
+        const double t = std::min(
+            until_side(double{e.at_x[k]}, du, -grid_.middle_x, heights_.cells_x() - grid_.middle_x),
+            until_side(double{e.at_y[k]}, dv, -grid_.middle_y,
+                       heights_.cells_y() - grid_.middle_y));
+        const bool over =
+            e.z[k] > 0 && double{e.at_z[k]} + double{e.z[k]} * t >= double{heights_.max_height()};
+        if (!over) {
+            wave.edge[wave.edge_count++] = e.path[k];
+            continue;
+        }
+        e.x[kept] = e.x[k];
+        e.y[kept] = e.y[k];
+        e.z[kept] = e.z[k];
+        e.path[kept++] = e.path[k];
+    }
+    e.count = kept;
+}
+
+void WideTracer::trace(std::span<Ray> rays, std::span<RayEnd> ends) const {
+    Wave wave;
+    for (std::size_t first = 0; first < rays.size(); first += kWave) {
+        const std::size_t count = std::min(kWave, rays.size() - first);
+        std::vector<std::size_t> free, standing;
+        for (std::size_t k = first; k < first + count; ++k) {
+            const bool above = rays[k].facet < 0 && rays[k].direction.z >= 0 &&
+                               rays[k].z >= double{heights_.max_height()};
+            if (above)
+                ends[k] = RayEnd::Escaped;
+            else
+                (rays[k].facet < 0 ? free : standing).push_back(k);
+        }
+        trace_some(free, false, rays, ends, wave);
+        trace_some(standing, true, rays, ends, wave);
+    }
+}
+
+void WideTracer::trace_some(std::span<const std::size_t> chosen, bool on_facet, std::span<Ray> rays,
+                            std::span<RayEnd> ends, Wave& wave) const {
+    clear(wave);
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+        const Ray& ray = rays[chosen[k]];
+        set_direction(on_facet ? wave.leaving : wave.arriving, k, ray.direction,
+                      static_cast<std::int32_t>(k));
+        place(ray, k, wave);
+    }
+    wave.points.count = chosen.size();
+    if (on_facet)
+        leave(wave);
+    else
+        fall(wave);
+
+    const auto mark = [&](std::int32_t path, RayEnd end) {
+        const std::size_t k = chosen[static_cast<std::size_t>(path)];
+        ends[k] = end;
+        rays[k].facet = -1;
+    };
+    for (std::size_t k = 0; k < wave.escapes.count; ++k)
+        mark(wave.escapes.path[k], RayEnd::Escaped);
+    for (std::size_t k = 0; k < wave.edge_count; ++k) mark(wave.edge[k], RayEnd::Edge);
+    for (std::size_t k = 0; k < wave.stuck_count; ++k) mark(wave.stuck[k], RayEnd::Stuck);
+    for (std::size_t k = 0; k < wave.points.count; ++k) {
+        const auto path = wave.arriving.path[static_cast<std::size_t>(wave.points.ray[k])];
+        const std::size_t ray = chosen[static_cast<std::size_t>(path)];
+        ends[ray] = RayEnd::Hit;
+        stand(wave.points, k, rays[ray]);
+    }
+}
+
+void WideTracer::stand(const FacetPoints& p, std::size_t k, Ray& ray) const {
+    const bool upper = p.side[k] < 0;
+    const double u = double{p.u[k]}, v = double{p.v[k]};
+    const int i = vertex_x(p.corner[k]) + grid_.middle_x - (upper ? 1 : 0);
+    ray.i = mirrored() ? heights_.cells_x() - 1 - i : i;
+    ray.j = vertex_y(p.corner[k]) + grid_.middle_y - (upper ? 1 : 0);
+    ray.u = upper != mirrored() ? 1 - u : u;
+    ray.v = upper ? 1 - v : v;
+    ray.z = double{p.height[k]} + double{p.rise_u[k]} * u + double{p.rise_v[k]} * v;
+    ray.facet = static_cast<std::int32_t>(upper ? Triangle::Upper : Triangle::Lower);
+    if (!periodic()) return;
+    // Corners on the border belong to the next tile; a tile of ours may be several of the surface
+    const auto wrap = [](int index, int count) { return ((index % count) + count) % count; };
+    ray.i = wrap(ray.i, surface_cells_x_);
+    ray.j = wrap(ray.j, surface_cells_y_);
+}
+
+}  // namespace asperity
