@@ -58,7 +58,10 @@ TEST(MapPoint, AxesAreWhereTheThesisHasThem) {
     expect_at({-1, 0, 0}, 0.25, 0.5);
     expect_at({0, 0, 1}, 0, 0.5);     // atan2(0, -1) = pi: the seam, taken to be its left
     expect_at({-0.0, 0, 1}, 0, 0.5);  // atan2(-0, -1) = -pi
-    EXPECT_EQ(map_point({0, 1, 0}).v, 0);
+    expect_at({0, 1, 0}, 0.5, 0);
+    expect_at({0, 0.6, 0.8}, 0, std::acos(0.6) / kPi);
+    expect_at({0.48, -0.6, 0.64}, std::atan2(0.48, -0.64) / (2 * kPi) + 0.5, std::acos(-0.6) / kPi);
+    expect_at({-0.64, 0.6, 0.48}, std::atan2(-0.64, -0.48) / (2 * kPi) + 0.5, std::acos(0.6) / kPi);
     expect_at({0, std::sqrt(0.5), -std::sqrt(0.5)}, 0.5, 0.25);
     EXPECT_LT(map_point({0, -1, 0}).v, 1);
     EXPECT_NEAR(map_point({0, -1, 0}).v, 1, 1e-15);

@@ -101,9 +101,8 @@ Daylight make_daylight(const SkySettings& settings, int height) {
 }
 
 std::string describe(const char* what, const SkySettings& settings) {
-    return fmt::format("{}, sun at elevation {} and azimuth {} degrees, turbidity {}, scale {}",
-                       what, settings.sun_elevation_deg, settings.sun_azimuth_deg,
-                       settings.turbidity, settings.scale);
+    return fmt::format("{}, sun at elevation {} and azimuth {} degrees, turbidity {}", what,
+                       settings.sun_elevation_deg, settings.sun_azimuth_deg, settings.turbidity);
 }
 
 }  // namespace
@@ -113,16 +112,19 @@ Image make_sky_map(const SkySettings& settings, int height) {
 }
 
 std::vector<std::unique_ptr<Light>> make_sky(const SkySettings& settings) {
-    const Daylight day = make_daylight(settings, kMapHeight);
-    EnvironmentMapSettings map;
-    map.name = describe("clear sky", settings);
+    check(settings);
+    SkySettings unscaled = settings;
+    unscaled.scale = 1;
+    const Daylight day = make_daylight(unscaled, kMapHeight);
     std::vector<std::unique_ptr<Light>> lights;
-    lights.push_back(make_environment_light(day.map, map));
+    lights.push_back(
+        make_environment_light(day.map, {0, settings.scale, describe("of a clear sky", settings)}));
     if (settings.sun)
         lights.push_back(make_disc_light(
-            sun_direction(settings), radians(settings.sun_diameter_deg), day.sun_irradiance,
-            describe("sun", settings) +
-                fmt::format(", diameter {} degrees", settings.sun_diameter_deg)));
+            sun_direction(settings), radians(settings.sun_diameter_deg),
+            settings.scale * day.sun_irradiance,
+            fmt::format("{}, diameter {} degrees, scale {}", describe("disc", settings),
+                        settings.sun_diameter_deg, settings.scale)));
     return lights;
 }
 

@@ -11,7 +11,9 @@ namespace asperity {
 
 /// A clear sky and its sun after Preetham, Shirley and Smits 1999, "A practical analytic model for
 /// daylight": Perez' distribution with their coefficients for the sky, their transmittances of the
-/// air for the sun.
+/// air for the sun (see sun.h). The fit has its limits: near the horizon and for a low sun some of
+/// its colours lie outside sRGB and are made paler at their luminance. A sun that the horizon cuts
+/// shines as a whole.
 struct SkySettings {
     double sun_elevation_deg = 45;  ///< 0 .. 90
     double sun_azimuth_deg = 45;    ///< from -z towards +x: 0 shines on the model's back
