@@ -43,6 +43,15 @@ function(asperity_module name)
     endif()
 endfunction()
 
+# asperity_vectors(NAME): the module has kernels written with Highway, for AVX-512, AVX2, SSE4 and,
+# for all other processors, plain C++. With GCC before 12.3 Highway would take a narrower plain
+# fallback for a compiler bug; our tests would show it.
+function(asperity_vectors name)
+    target_link_libraries(asperity_${name} PRIVATE hwy)
+    target_compile_definitions(asperity_${name} PRIVATE
+        HWY_BROKEN_EMU128=0 "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL)")
+endfunction()
+
 # asperity_test(NAME LABEL label SOURCES ... LIBS ...): a GoogleTest binary and its ctest entry.
 # All tests of a label are built by the target <label>_tests.
 function(asperity_test name)

@@ -35,34 +35,54 @@ BatchSums::BatchSums(int cells, int channels, int orders, int bounces)
       truncated_(channels_),
       edge_(channels_) {}
 
-void BatchSums::escape(int cell, int order, std::span<const double> weights) {
+void BatchSums::escape(const PerPath<std::int32_t>& cells, const PerPath<std::int32_t>& paths,
+                       std::size_t count, int order, const Weights& weights) {
     const std::size_t bounce = index(order - 1), kept = std::min(bounce, orders_ - 1);
-    if (!is_touched_[index(cell)]) {
-        is_touched_[index(cell)] = true;
-        touched_.push_back(static_cast<std::uint32_t>(cell));
+    const std::size_t stride = orders_ * channels_;
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t cell = index(cells[k]);
+        if (!is_touched_[cell]) {
+            is_touched_[cell] = 1;
+            touched_.push_back(static_cast<std::uint32_t>(cell));
+        }
+        if (weights.empty()) energy_[cell * stride + kept] += kRayEnergy;
     }
-    std::uint64_t* sums = &energy_[(index(cell) * orders_ + kept) * channels_];
+    if (weights.empty()) {
+        escaped_by_bounce_[bounce] += count * kRayEnergy;
+        return;
+    }
     for (std::size_t c = 0; c < channels_; ++c) {
-        const std::uint64_t energy = to_energy(weights[c]);
-        sums[c] += energy;
-        escaped_by_bounce_[c * bounces_ + bounce] += energy;
-        absorbed_[c] += kRayEnergy - energy;
+        const PerPath<float>& weight = weights[c];
+        std::uint64_t sum = 0;
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::uint64_t energy = to_energy(double{weight[index(paths[k])]});
+            energy_[index(cells[k]) * stride + kept * channels_ + c] += energy;
+            sum += energy;
+        }
+        escaped_by_bounce_[c * bounces_ + bounce] += sum;
+        absorbed_[c] += count * kRayEnergy - sum;
     }
 }
 
-void BatchSums::settle(std::vector<std::uint64_t>& account, std::span<const double> weights) {
-    for (std::size_t c = 0; c < channels_; ++c) {
-        const std::uint64_t energy = to_energy(weights[c]);
-        account[c] += energy;
-        absorbed_[c] += kRayEnergy - energy;
+void BatchSums::settle(std::vector<std::uint64_t>& account, const PerPath<std::int32_t>& paths,
+                       std::size_t count, const Weights& weights) {
+    if (weights.empty()) {
+        account[0] += count * kRayEnergy;
+        return;
     }
+    for (std::size_t c = 0; c < channels_; ++c)
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::uint64_t energy = to_energy(double{weights[c][index(paths[k])]});
+            account[c] += energy;
+            absorbed_[c] += kRayEnergy - energy;
+        }
 }
 
 void BatchSums::clear() {
     const std::size_t stride = orders_ * channels_;
     for (const std::uint32_t cell : touched_) {
         std::fill_n(&energy_[cell * stride], stride, std::uint64_t{0});
-        is_touched_[cell] = false;
+        is_touched_[cell] = 0;
     }
     touched_.clear();
     for (auto* account : {&escaped_by_bounce_, &absorbed_, &truncated_, &edge_})

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <asperity/gonio/measurement.h>
+#include <asperity/tracing/wide.h>
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace asperity {
@@ -14,10 +14,19 @@ class BatchSums {
   public:
     BatchSums(int cells, int channels, int orders, int bounces);
 
-    /// A ray left into `cell` after `order` >= 1 reflections.
-    void escape(int cell, int order, std::span<const double> weights);
-    void truncate(std::span<const double> weights) { settle(truncated_, weights); }
-    void lose_at_edge(std::span<const double> weights) { settle(edge_, weights); }
+    /// Weights of paths: [channel], by path; none for perfect mirrors, whose rays keep all energy.
+    using Weights = std::vector<PerPath<float>>;
+
+    /// `count` paths left into cells[k] after `order` >= 1 reflections.
+    void escape(const PerPath<std::int32_t>& cells, const PerPath<std::int32_t>& paths,
+                std::size_t count, int order, const Weights& weights);
+    void truncate(const PerPath<std::int32_t>& paths, std::size_t count, const Weights& weights) {
+        settle(truncated_, paths, count, weights);
+    }
+    void lose_at_edge(const PerPath<std::int32_t>& paths, std::size_t count,
+                      const Weights& weights) {
+        settle(edge_, paths, count, weights);
+    }
     /// Forgets everything; cost: the cells touched.
     void clear();
 
@@ -25,13 +34,14 @@ class BatchSums {
 
   private:
     friend class LayerSums;
-    /// Books `weights` under `account` and the rest of each ray's energy as absorbed.
-    void settle(std::vector<std::uint64_t>& account, std::span<const double> weights);
+    /// Books the paths' energy under `account` and the rest of it as absorbed.
+    void settle(std::vector<std::uint64_t>& account, const PerPath<std::int32_t>& paths,
+                std::size_t count, const Weights& weights);
 
     std::size_t cells_, channels_, orders_, bounces_;
     std::vector<std::uint64_t> energy_;   ///< [(cell * orders + order) * channels + channel]
     std::vector<std::uint32_t> touched_;  ///< cells that hold energy
-    std::vector<bool> is_touched_;
+    std::vector<std::uint8_t> is_touched_;
     std::vector<std::uint64_t> escaped_by_bounce_;  ///< [channel * bounces + order]
     std::vector<std::uint64_t> absorbed_, truncated_, edge_;
 };

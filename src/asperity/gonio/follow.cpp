@@ -2,106 +2,125 @@
 #include <asperity/gonio/follow.h>
 
 #include <asperity/core/directions.h>
-#include <asperity/core/energy.h>
+#include <asperity/gonio/path_kernels.h>
 
-#include <vector>
+#include <algorithm>
+#include <cmath>
 
 namespace asperity {
 
-namespace {
+void Follower::follow(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
+                      std::uint64_t end, BatchSums& sums) {
+    const std::size_t channels =
+        scene.fresnel.perfect() ? 0 : static_cast<std::size_t>(scene.fresnel.channels());
+    weights_.resize(channels);
+    reflectance_.resize(channels);
+    for (PerPath<float>& weights : weights_) std::fill_n(weights.values, end - begin, 1.0f);
 
-/// The rays still under way, one weight per channel each. Compacted after every reflection.
-struct Paths {
-    std::vector<Ray> rays;
-    std::vector<double> phi_i;
-    std::vector<double> weights;  ///< [ray * channels + channel]
-    std::vector<RayEnd> ends;
-
-    void move(std::size_t from, std::size_t to, std::size_t channels) {
-        if (from == to) return;
-        rays[to] = rays[from];
-        phi_i[to] = phi_i[from];
-        for (std::size_t c = 0; c < channels; ++c)
-            weights[to * channels + c] = weights[from * channels + c];
+    // Find the first facet of every ray
+    launch(scene, batch, begin, end);
+    sums.rays += end - begin;
+    sums.segments += end - begin;
+    for (int reflections = 0;; ++reflections) {
+        // Sort what has left by direction
+        settle(scene, reflections, sums);
+        const std::size_t under_way = wave_.points.count;
+        if (under_way == 0) break;
+        // The bounce limit cuts a ray that would need one reflection more
+        if (reflections == scene.bounces) {
+            for (std::size_t k = 0; k < under_way; ++k)
+                paths_[k] = wave_.arriving.path[static_cast<std::size_t>(wave_.points.ray[k])];
+            sums.truncate(paths_, under_way, weights_);
+            break;
+        }
+        // Mirror the others at their facets, and find the next facet or the way out
+        reflect(scene, in_rows_ && reflections == 0);
+        sums.reflections += under_way;
+        sums.segments += under_way;
+        scene.tracer.leave(wave_);
     }
-};
+}
 
-Paths launch_paths(const LaunchBatch& batch, std::uint64_t begin, std::uint64_t end,
-                   std::size_t channels) {
-    Paths paths;
-    const auto count = static_cast<std::size_t>(end - begin);
-    paths.rays.reserve(count);
-    paths.phi_i.reserve(count);
+void Follower::launch(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
+                      std::uint64_t end) {
+    in_rows_ = batch.in_rows() && scene.tracer.periodic();
+    if (in_rows_)
+        launch_rows(scene, batch, begin, end);
+    else
+        launch_each(scene, batch, begin, end);
+}
+
+void Follower::launch_rows(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
+                           std::uint64_t end) {
+    const WideTracer& tracer = scene.tracer;
+    Vec3 d = -from_spherical(batch.incidence().theta, batch.incidence().phi);
+    if (tracer.mirrored()) d.x = -d.x;
+    wave_.arriving.x[0] = static_cast<float>(d.x);
+    wave_.arriving.y[0] = static_cast<float>(d.y);
+    wave_.arriving.z[0] = static_cast<float>(d.z);
+    for (std::size_t k = 0; k < end - begin; ++k)
+        wave_.arriving.path[k] = static_cast<std::int32_t>(k);
+
+    tracer.clear(wave_);
+    for (std::uint64_t k = begin; k < end;) {
+        const LaunchRow row = batch.row(k);
+        const auto count = static_cast<int>(std::min(row.count, end - k));
+        const auto first = static_cast<int>(k - begin);
+        // In a mirrored row the last ray comes first; rays of a row are all alike
+        const int cells = tracer.cells_x();
+        const int i = tracer.mirrored() ? (2 * cells - row.i - count) % cells : row.i;
+        const double u = tracer.mirrored() ? 1 - row.u : row.u;
+        if (d.x == 0 && d.y == 0) {
+            tracer.launch_down(u, row.v, i, row.j, count, first, wave_);
+        } else {
+            LaunchLine line(tracer.heights(), u, row.v, double{tracer.max_height()}, d);
+            tracer.launch(line, i, row.j, count, first, wave_);
+        }
+        k += static_cast<std::uint64_t>(count);
+    }
+    tracer.land(wave_);
+}
+
+void Follower::launch_each(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
+                           std::uint64_t end) {
+    rays_.clear();
     for (std::uint64_t k = begin; k < end; ++k) {
         const Launch start = batch.launch(k);
-        paths.rays.push_back(start.ray);
-        paths.phi_i.push_back(start.phi_i);
-    }
-    paths.weights.assign(count * channels, 1.0);
-    paths.ends.resize(count);
-    return paths;
-}
-
-/// Mirrors the ray at the facet it stands on and lets the facet take its share.
-void reflect_at_facet(const Scene& scene, Ray& ray, std::span<double> weights,
-                      std::span<double> reflectance) {
-    const Vec3 wm = scene.tracer.normal(ray);
-    const double cos_theta = -dot(ray.direction, wm);
-    ray.direction = normalize(-reflect(ray.direction, wm));
-    if (scene.fresnel.perfect()) return;
-    scene.fresnel.eval(std::clamp(cos_theta, 0.0, 1.0), reflectance);
-    for (std::size_t c = 0; c < weights.size(); ++c) weights[c] *= reflectance[c];
-}
-
-}  // namespace
-
-void follow(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin, std::uint64_t end,
-            BatchSums& sums) {
-    const auto channels = static_cast<std::size_t>(scene.fresnel.channels());
-    std::vector<double> reflectance(channels);
-    Paths paths = launch_paths(batch, begin, end, channels);
-    std::size_t alive = paths.rays.size();
-
-    for (int reflections = 0; alive > 0; ++reflections) {
-        // Find the next facet of every ray, or its way out
-        scene.tracer.trace(std::span(paths.rays).first(alive), std::span(paths.ends).first(alive));
-        sums.segments += alive;
-
-        std::size_t kept = 0;
-        for (std::size_t k = 0; k < alive; ++k) {
-            Ray& ray = paths.rays[k];
-            const std::span<double> weights(&paths.weights[k * channels], channels);
-            switch (paths.ends[k]) {
-                case RayEnd::Hit:
-                    // The bounce limit cuts a ray that would need one reflection more
-                    if (reflections == scene.bounces) {
-                        sums.truncate(weights);
-                        break;
-                    }
-                    reflect_at_facet(scene, ray, weights, reflectance);
-                    ++sums.reflections;
-                    paths.move(k, kept++, channels);
-                    break;
-                case RayEnd::Escaped: {
-                    // Sort by direction; order 1 left after one reflection
-                    const Vec3 wo = scene.relative_azimuth
-                                        ? rotate_z(ray.direction, -paths.phi_i[k])
-                                        : ray.direction;
-                    sums.escape(scene.detector.cell_of(wo), reflections, weights);
-                    break;
-                }
-                case RayEnd::Edge:
-                    sums.lose_at_edge(weights);
-                    break;
-                case RayEnd::Stuck:
-                    sums.truncate(weights);
-                    ++sums.stuck;
-                    break;
-            }
+        if (scene.relative_azimuth) {
+            cos_phi_[rays_.size()] = static_cast<float>(std::cos(start.phi_i));
+            sin_phi_[rays_.size()] = static_cast<float>(std::sin(start.phi_i));
         }
-        alive = kept;
+        rays_.push_back(start.ray);
     }
-    sums.rays += end - begin;
+    scene.tracer.enter(rays_, wave_);
+}
+
+void Follower::reflect(const Scene& scene, bool parallel) {
+    const PaddedHeights& heights = scene.tracer.heights();
+    reflect_paths(wave_.points, wave_.arriving, parallel, static_cast<float>(1 / heights.dx()),
+                  static_cast<float>(1 / heights.dy()), wave_.leaving, cosine_);
+    // Each facet takes its share
+    const std::size_t count = wave_.points.count;
+    if (weights_.empty()) return;
+    std::vector<float*> out;
+    for (PerPath<float>& f : reflectance_) out.push_back(f);
+    scene.fresnel.eval({cosine_.values, count}, out);
+    for (std::size_t c = 0; c < weights_.size(); ++c)
+        for (std::size_t k = 0; k < count; ++k)
+            weights_[c][static_cast<std::size_t>(wave_.leaving.path[k])] *= reflectance_[c][k];
+}
+
+void Follower::settle(const Scene& scene, int reflections, BatchSums& sums) {
+    const Escapes& escapes = wave_.escapes;
+    if (escapes.count > 0) {
+        find_cells(escapes, scene.detector, scene.tracer.mirrored() ? -1.0f : 1.0f,
+                   scene.relative_azimuth ? &cos_phi_ : nullptr,
+                   scene.relative_azimuth ? &sin_phi_ : nullptr, cells_);
+        sums.escape(cells_, escapes.path, escapes.count, reflections, weights_);
+    }
+    sums.lose_at_edge(wave_.edge, wave_.edge_count, weights_);
+    sums.truncate(wave_.stuck, wave_.stuck_count, weights_);
+    sums.stuck += wave_.stuck_count;
 }
 
 }  // namespace asperity

@@ -5,24 +5,50 @@
 #include <asperity/gonio/detector.h>
 #include <asperity/gonio/launch.h>
 #include <asperity/optics/fresnel.h>
-#include <asperity/tracing/tracer.h>
+#include <asperity/tracing/wide_tracer.h>
 
 #include <cstdint>
+#include <vector>
 
 namespace asperity {
 
 /// What the rays of a layer have in common on their way.
 struct Scene {
-    const Tracer& tracer;
+    const WideTracer& tracer;
     const Fresnel& fresnel;
     const Detector& detector;
     int bounces = 1;                ///< Ray Bounces B
     bool relative_azimuth = false;  ///< sort by the azimuth relative to the light's
 };
 
-/// Follows the rays [begin, end) of a batch from facet to facet until they leave, and adds what
-/// became of their energy to `sums`. Adds integers only: the order of the calls does not matter.
-void follow(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin, std::uint64_t end,
-            BatchSums& sums);
+/// Follows rays from facet to facet until they leave; the working memory of one thread.
+class Follower {
+  public:
+    /// Rays followed at a time.
+    static constexpr std::uint64_t kMost = kWave;
+
+    /// Follows the rays [begin, end) of a batch, at most kMost, and adds what became of their
+    /// energy to `sums`. Adds integers only: the order of the calls does not matter.
+    void follow(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
+                std::uint64_t end, BatchSums& sums);
+
+  private:
+    void launch(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
+                std::uint64_t end);
+    void launch_rows(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
+                     std::uint64_t end);
+    void launch_each(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
+                     std::uint64_t end);
+    void reflect(const Scene& scene, bool parallel);
+    void settle(const Scene& scene, int reflections, BatchSums& sums);
+
+    Wave wave_;
+    PerPath<float> cosine_, cos_phi_, sin_phi_;
+    PerPath<std::int32_t> cells_, paths_;
+    std::vector<PerPath<float>> weights_;  ///< [channel], by path; empty for perfect mirrors
+    std::vector<PerPath<float>> reflectance_;
+    std::vector<Ray> rays_;
+    bool in_rows_ = false;
+};
 
 }  // namespace asperity

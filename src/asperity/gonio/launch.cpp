@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace asperity {
 
@@ -14,10 +13,13 @@ namespace {
 __extension__ using Wide = unsigned __int128;
 
 /// What a random number is for: the fourth word of the counter.
-enum Dimension : std::uint32_t { kPosition, kAzimuth, kShift };
+enum Dimension : std::uint32_t { kPosition, kAzimuth, kShift, kFirstCell };
 
 /// Batches are told apart in the upper bits of the counter's index; a batch has fewer rays.
 constexpr int kBatchShift = 40;
+
+/// (sqrt(5) - 1) / 2 in units of 2^-64.
+constexpr std::uint64_t kGoldenRatio = 0x9e3779b97f4a7c15u;
 
 std::uint64_t to_fixed(double fraction) {
     return static_cast<std::uint64_t>(std::ldexp(fraction, 64));
@@ -65,21 +67,36 @@ LaunchBatch::LaunchBatch(const Heightfield& surface, double height, const Incide
       cells_x_(static_cast<std::uint32_t>(surface.cells_x())),
       cells_y_(static_cast<std::uint32_t>(surface.cells_y())),
       height_(height) {
-    const double n = static_cast<double>(rays);
-    const double width = cells_x_ * surface.dx, depth = cells_y_ * surface.dy;
-    const double rows = std::clamp(std::round(std::sqrt(n * depth / width)), 1.0, n);
-    rows_ = static_cast<std::uint64_t>(rows);
-    // Lattice: point k stands at x = k / (columns + golden ratio), y = k / n. Each sweep over x is
-    // one row of points, shifted against the row before by the golden ratio of their spacing.
-    const double columns = std::floor(n / rows);
-    step_ = {to_fixed(1.0 / (columns + std::numbers::phi - 1)),
-             static_cast<std::uint64_t>((Wide{1} << 64) / rays - (rays == 1 ? 1 : 0))};
     const auto shift = random_.bits64(first_, kShift);
     shift_ = {shift[0], shift[1]};
+    if (pattern == LaunchPattern::LowDiscrepancy) {
+        rows_ = (rays + cells_x_ - 1) / cells_x_;
+        first_cell_ = static_cast<std::uint32_t>(
+            (Wide{random_.bits64(first_, kFirstCell)[0]} * cells_x_) >> 64);
+    } else {
+        // So that the spacing of the strata is alike in x and y
+        const double n = static_cast<double>(rays);
+        const double width = cells_x_ * surface.dx, depth = cells_y_ * surface.dy;
+        const double rows = std::clamp(std::round(std::sqrt(n * depth / width)), 1.0, n);
+        rows_ = static_cast<std::uint64_t>(rows);
+    }
 }
 
-LaunchBatch::Point LaunchBatch::lattice_point(std::uint64_t k) const {
-    return {k * step_.x + shift_.x, k * step_.y + shift_.y};  // modulo 1, by wrap-around
+LaunchRow LaunchBatch::row(std::uint64_t k) const {
+    // Rows are as long as each other but for one point, and as far apart
+    const std::uint64_t r = k * rows_ / rays_;
+    const auto begin_of = [&](std::uint64_t row) { return (row * rays_ + rows_ - 1) / rows_; };
+    const std::uint64_t begin = begin_of(r), within = k - begin;
+    LaunchRow row;
+    row.first = k;
+    row.count = begin_of(r + 1) - k;
+    row.j = split(static_cast<std::uint64_t>((Wide{r} << 64) / rows_) + shift_.y, cells_y_, row.v);
+    // The golden ratio of a cell from row to row; a row shorter than the tile begins elsewhere, too
+    row.u = to_unit(shift_.x + r * kGoldenRatio);
+    const std::uint64_t golden_cell =
+        static_cast<std::uint64_t>((Wide{r * kGoldenRatio} * cells_x_) >> 64);
+    row.i = static_cast<std::int32_t>((first_cell_ + golden_cell + within) % cells_x_);
+    return row;
 }
 
 LaunchBatch::Point LaunchBatch::stratified_point(std::uint64_t k) const {
@@ -101,12 +118,19 @@ LaunchBatch::Point LaunchBatch::random_point(std::uint64_t k) const {
 }
 
 Launch LaunchBatch::launch(std::uint64_t k) const {
-    const Point p = pattern_ == LaunchPattern::LowDiscrepancy ? lattice_point(k)
-                    : pattern_ == LaunchPattern::Stratified   ? stratified_point(k)
-                                                              : random_point(k);
     Launch l;
-    l.ray.i = split(p.x, cells_x_, l.ray.u);
-    l.ray.j = split(p.y, cells_y_, l.ray.v);
+    if (pattern_ == LaunchPattern::LowDiscrepancy) {
+        const LaunchRow start = row(k);
+        l.ray.i = start.i;
+        l.ray.j = start.j;
+        l.ray.u = start.u;
+        l.ray.v = start.v;
+    } else {
+        const Point p =
+            pattern_ == LaunchPattern::Stratified ? stratified_point(k) : random_point(k);
+        l.ray.i = split(p.x, cells_x_, l.ray.u);
+        l.ray.j = split(p.y, cells_y_, l.ray.v);
+    }
     l.ray.z = height_;
     l.phi_i =
         incidence_.isotropic ? 2 * kPi * random_.uniform2(first_ + k, kAzimuth)[0] : incidence_.phi;

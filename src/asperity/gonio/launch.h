@@ -27,9 +27,20 @@ struct Launch {
     double phi_i = 0;
 };
 
+/// Neighbouring launch points of a lattice: the same place (u, v) of the cells (i, j), (i + 1, j)
+/// ... of a row, which goes on at its other end.
+struct LaunchRow {
+    std::int32_t i = 0, j = 0;
+    double u = 0, v = 0;
+    std::uint64_t first = 0, count = 0;  ///< rays [first, first + count) of the batch
+};
+
 /// Launch points of one batch: spread over the tile at the height of the highest point, which is
 /// uniform in flux. Every pattern gives each point of the tile the same density, so the estimate is
 /// free of bias; batches are independent of each other, so their spread shows its error.
+///
+/// The lattice of LowDiscrepancy consists of rows of points one cell apart, so that the rays of a
+/// row cross the grid in step; rows are shifted against each other by the golden ratio of a cell.
 class LaunchBatch {
   public:
     /// `index` and `rays` of this batch; `stream` separates the layers of a run. Throws nothing.
@@ -40,13 +51,19 @@ class LaunchBatch {
     std::uint64_t rays() const { return rays_; }
     /// The k-th ray, k < rays(); neighbours in k start near each other, which the caches like.
     Launch launch(std::uint64_t k) const;
+    /// Whether parallel rays start in rows.
+    bool in_rows() const {
+        return pattern_ == LaunchPattern::LowDiscrepancy && !incidence_.isotropic;
+    }
+    /// What is left from ray k on of the row it belongs to; LowDiscrepancy only.
+    LaunchRow row(std::uint64_t k) const;
+    const Incidence& incidence() const { return incidence_; }
 
   private:
     /// A point of the tile in units of 2^-64 of its sides.
     struct Point {
         std::uint64_t x = 0, y = 0;
     };
-    Point lattice_point(std::uint64_t k) const;
     Point stratified_point(std::uint64_t k) const;
     Point random_point(std::uint64_t k) const;
 
@@ -54,8 +71,9 @@ class LaunchBatch {
     LaunchPattern pattern_;
     CounterRandom random_;
     std::uint64_t rays_, first_;
-    std::uint64_t rows_;  ///< of points, so that their spacing is alike in x and y
-    Point step_, shift_;  ///< of the lattice
+    std::uint64_t rows_;  ///< of points
+    Point shift_;         ///< of the lattice
+    std::uint32_t first_cell_ = 0;
     std::uint32_t cells_x_, cells_y_;
     double height_;
 };

@@ -20,8 +20,6 @@ namespace asperity {
 
 namespace {
 
-/// Rays followed between two looks at the wish to stop: some milliseconds.
-constexpr std::uint64_t kChunk = 1024;
 /// A batch larger than this is split: a stopped run loses the batches under way.
 constexpr std::uint64_t kLargestBatch = 1 << 18;
 
@@ -147,7 +145,7 @@ class Gonioreflectometer {
         parallel_for(static_cast<std::size_t>(end - begin), run_.threads(), [&](std::size_t k) {
             const std::uint64_t b = begin + k;
             if (run_.stop_requested()) return;
-            std::unique_ptr<BatchSums> batch_sums = borrow_sums();
+            std::unique_ptr<Workplace> work = borrow_workplace();
             // Choose start points
             const LaunchBatch batch(surface_, double{tracer_.max_height()}, light,
                                     experiment_.run.launch, plan_.rays_of(b), experiment_.run.seed,
@@ -155,18 +153,18 @@ class Gonioreflectometer {
             // Follow the rays until they leave, and sort them by direction
             const Scene scene{tracer_, fresnel_, detector_, experiment_.run.bounces,
                               light.isotropic};
-            for (std::uint64_t first = 0; first < batch.rays(); first += kChunk) {
+            for (std::uint64_t first = 0; first < batch.rays(); first += Follower::kMost) {
                 if (run_.stop_requested()) return;
-                const std::uint64_t last = std::min(first + kChunk, batch.rays());
-                follow(scene, batch, first, last, *batch_sums);
+                const std::uint64_t last = std::min(first + Follower::kMost, batch.rays());
+                work->follower.follow(scene, batch, first, last, work->sums);
                 run_.advance(last - first);
             }
             // Add the batch to its layer; integers, so the order does not matter
             {
                 const std::scoped_lock lock(mutex);
-                sums.add(*batch_sums);
+                sums.add(work->sums);
             }
-            give_back(std::move(batch_sums));
+            give_back(std::move(work));
         });
     }
 
@@ -183,35 +181,40 @@ class Gonioreflectometer {
     }
     int orders() const { return std::min(experiment_.detector.orders, experiment_.run.bounces); }
 
-    // Working memory is used again by the next batch.
-    std::unique_ptr<BatchSums> borrow_sums() {
+    /// The working memory of a thread, used again by the next batch.
+    struct Workplace {
+        BatchSums sums;
+        Follower follower;
+    };
+    std::unique_ptr<Workplace> borrow_workplace() {
         {
             const std::scoped_lock lock(spare_mutex_);
             if (!spare_.empty()) {
-                auto sums = std::move(spare_.back());
+                auto work = std::move(spare_.back());
                 spare_.pop_back();
-                return sums;
+                return work;
             }
         }
-        return std::make_unique<BatchSums>(detector_.cells(), fresnel_.channels(), orders(),
-                                           experiment_.run.bounces);
+        return std::make_unique<Workplace>(Workplace{
+            BatchSums(detector_.cells(), fresnel_.channels(), orders(), experiment_.run.bounces),
+            Follower()});
     }
-    void give_back(std::unique_ptr<BatchSums> sums) {
-        sums->clear();
+    void give_back(std::unique_ptr<Workplace> work) {
+        work->sums.clear();
         const std::scoped_lock lock(spare_mutex_);
-        spare_.push_back(std::move(sums));
+        spare_.push_back(std::move(work));
     }
 
     const Heightfield& surface_;
     const Experiment& experiment_;
     Run& run_;
     const Fresnel fresnel_;
-    const Tracer tracer_;
+    const WideTracer tracer_;
     const Detector detector_;
     const BatchPlan plan_;
     std::uint64_t rays_ahead_ = 0;
     std::mutex spare_mutex_;
-    std::vector<std::unique_ptr<BatchSums>> spare_;
+    std::vector<std::unique_ptr<Workplace>> spare_;
 };
 
 }  // namespace

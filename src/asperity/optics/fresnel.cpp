@@ -228,4 +228,12 @@ void Fresnel::eval(double cos_theta, std::span<double> f) const {
     }
 }
 
+void Fresnel::eval(std::span<const float> cos_theta, std::span<float* const> f) const {
+    std::vector<double> one(channels_.size());
+    for (std::size_t k = 0; k < cos_theta.size(); ++k) {
+        eval(double{cos_theta[k]}, one);
+        for (std::size_t c = 0; c < channels_.size(); ++c) f[c][k] = static_cast<float>(one[c]);
+    }
+}
+
 }  // namespace asperity

@@ -51,6 +51,8 @@ class Fresnel {
     /// Writes the reflectance of each channel; cos_theta in [0, 1] between wi and wm;
     /// f.size() == channels().
     void eval(double cos_theta, std::span<double> f) const;
+    /// The same for many angles, in single precision: f[channel][k] for cos_theta[k].
+    void eval(std::span<const float> cos_theta, std::span<float* const> f) const;
 
   private:
     void set_conductor(const OpticsSettings& settings);
