@@ -36,13 +36,21 @@ struct ModelFile {
 
 /// Reads .obj, .ply (text and binary), .stl (text and binary), .gltf, .glb or .3ds, known by the
 /// ending. Polygons are cut into triangles; points, lines, materials, textures, cameras, lights,
-/// animation and bones are left out. Scenes keep their instances; axes stay as they are in the file
-/// (all taken as y up). Buffers that a .gltf names are read from its own folder or below only.
+/// animation and bones are left out. Scenes keep their instances. Axes stay as they are in the
+/// file, all taken as y up, but for .3ds, whose z is up and becomes y. Buffers that a .gltf names
+/// are read from its own folder or below only.
 ///
-/// Every file is walked through first, by code of ours, and only one whose counts, indices and
-/// offsets hold goes on to assimp. Throws Error(InvalidInput, place), the place being "file:line"
-/// for text, "file:byte" for binary files, where known; also for a file without triangles.
-/// Error(InputOutput, path), Error(OutOfMemory, path), Error(Usage, "model") for another ending.
+/// Every file is walked through by code of ours. OBJ, PLY and STL are read on that walk: vertices
+/// are those of the file, OBJ's doubled where a corner has another normal, STL's made one where
+/// they lie at one place. Of glTF and 3DS the walk makes a copy with the triangles alone, whose
+/// counts, indices and offsets hold, and that copy goes on to assimp; 3DS vertices of equal place
+/// and normal are made one. (assimp 5.2's own PLY reader never returns from a header that is cut,
+/// and its OBJ reader gives each corner a vertex of its own.)
+///
+/// Throws Error(InvalidInput, place), the place being "file:line" for text, "file:byte" for binary
+/// files, where known; also for a file without a triangle to be drawn, and for coordinates beyond
+/// 1e15 or a model less than 1e-15 across. Error(InputOutput, path), Error(OutOfMemory, path),
+/// Error(Usage, "model") for another ending, Error(Usage, "crease") as set_normals.
 ModelFile read_model(const std::string& path, const ModelReadSettings& settings = {});
 
 /// True for an ending that read_model knows.
