@@ -64,7 +64,8 @@ std::string verb_help(const CLI::App& app, const std::string& usage, const std::
         if (option->get_positional()) arguments += option_lines(*option);
     }
     if (!arguments.empty()) text += '\n' + arguments;
-    for (const char* group : {kSurface, kLight, kFacets, kDetector, kRun, kOutput}) {
+    for (const char* group :
+         {kSurface, kModel, kMaterial, kLight, kCamera, kFacets, kDetector, kRun, kOutput}) {
         std::string lines;
         for (const CLI::Option* option : app.get_options()) {
             if (!option->get_positional() && option->get_group() == group) {

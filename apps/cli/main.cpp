@@ -27,6 +27,7 @@ constexpr const char* kProgramClosing =
     "  asperity simulate --surface gaussian --alpha 0.3 --isotropic -o metal.asperity\n"
     "  asperity info metal.asperity\n"
     "  asperity export metal.asperity -o pictures/\n"
+    "  asperity render --model knot --brdf metal.asperity -o knot.png\n"
     "  asperity compare metal.asperity cook-torrance:roughness=0.55,metallic=1\n"
     "\n"
     "Exit codes: 0 done, 2 wrong use, 3 bad input, 4 input/output, 5 memory, 130 stopped.\n";
@@ -92,15 +93,17 @@ std::string in_words(const CLI::ParseError& error) {
 }
 
 int run_program(int argc, char** argv) {
-    CLI::App program("a virtual gonioreflectometer: from a rough surface to its BRDF", "asperity");
+    CLI::App program(
+        "a virtual gonioreflectometer: from a rough surface to its BRDF, and to pictures",
+        "asperity");
     program.set_version_flag("--version", std::string("asperity ") + kVersion);
     set_program_help(program, kProgramClosing);
     // The verbs check their own needs, so that a mistyped option is named before a missing one.
     program.allow_extras();
     program.require_subcommand(0, 1);
-    const std::vector<Verb> verbs = {add_surface(program), add_simulate(program),
-                                     add_info(program),    add_compare(program),
-                                     add_export(program),  add_selftest(program)};
+    const std::vector<Verb> verbs = {
+        add_surface(program), add_simulate(program), add_info(program),    add_compare(program),
+        add_render(program),  add_export(program),   add_selftest(program)};
     for (const Verb& verb : verbs) verb.app->allow_extras();
 
     try {

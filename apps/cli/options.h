@@ -13,7 +13,10 @@ namespace asperity::cli {
 
 /// The groups of options in the order help shows them.
 inline constexpr const char* kSurface = "Surface";
+inline constexpr const char* kModel = "Model";
+inline constexpr const char* kMaterial = "Material";
 inline constexpr const char* kLight = "Light";
+inline constexpr const char* kCamera = "Camera";
 inline constexpr const char* kFacets = "Facets";
 inline constexpr const char* kDetector = "Detector";
 inline constexpr const char* kRun = "Run";

@@ -47,8 +47,8 @@ void ProgressBar::clear() {
 std::string ProgressBar::line_of(const Progress& p) const {
     const double share = static_cast<double>(p.done) / static_cast<double>(p.total);
     const auto filled = static_cast<std::size_t>(share * static_cast<double>(kBarWidth));
-    // Only light is counted in rays and layers.
-    const bool light = p.stage == "tracing";
+    // Only light is counted in rays and layers, and only pictures in samples.
+    const bool light = p.stage == "tracing", picture = p.stage == "rendering";
     std::string line = p.stage;
     if (light && layers_ > 0) {
         const auto done = static_cast<std::size_t>(share * static_cast<double>(layers_));
@@ -58,6 +58,7 @@ std::string ProgressBar::line_of(const Progress& p) const {
                         std::string(kBarWidth - filled, '.'), 100 * share);
     if (p.per_second > 0) {
         if (light) line += fmt::format("  {}rays/s", short_number(p.per_second));
+        if (picture) line += fmt::format("  {}samples/s", short_number(p.per_second));
         line += fmt::format("  {} left", clock_text(p.seconds_left));
     }
     return line;
