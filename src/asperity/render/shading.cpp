@@ -11,6 +11,11 @@ namespace {
 /// The least cosine between the normal that is shaded and the viewer.
 constexpr double kLeastCosine = 0.01;
 
+/// The curve of Chiang et al. begins where the triangle's cosine falls below 1 / kSoftPart of the
+/// surface's. With 1, theirs, even a fine sphere is too dark by 2 (t tan(theta))^2, t how far a
+/// triangle is tilted against it: tenths of a percent ten degrees before the shadow.
+constexpr double kSoftPart = 2;
+
 /// `normal`, turned in its plane with `view` until their cosine is kLeastCosine.
 Vec3 turn_to_viewer(Vec3 normal, Vec3 view) {
     const Vec3 across = normal - dot(normal, view) * view;
@@ -43,7 +48,7 @@ double terminator_softness(const SurfacePoint& point, Vec3 light) {
     if (geometric <= 0) return 0;
     // Where the smooth surface turns away it is black by itself
     if (shading <= 0 || between <= 0) return 1;
-    const double g = std::min(1.0, geometric / (shading * between));
+    const double g = std::min(1.0, kSoftPart * geometric / (shading * between));
     return g * (1 + g * (1 - g));
 }
 

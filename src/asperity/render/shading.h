@@ -29,8 +29,9 @@ inline bool lit_from(const SurfacePoint& point, Vec3 light) {
 }
 
 /// How much light from `light` is let through, 0 .. 1, where a coarse mesh under smooth normals
-/// would end in a hard, faceted shadow line (Chiang et al. 2019, "Taming the shadow terminator").
-/// 1 where the shading normal is the triangle's.
+/// would end in a hard, faceted shadow line (after Chiang et al. 2019, "Taming the shadow
+/// terminator"). 1 where the shading normal is the triangle's, and while the triangle faces the
+/// light at least half as much as the smooth surface does: a fine mesh looks like what it is of.
 double terminator_softness(const SurfacePoint& point, Vec3 light);
 
 }  // namespace asperity

@@ -67,17 +67,20 @@ TEST(Terminator, IsOneForFlatFacetsAndZeroBehindThem) {
 }
 
 TEST(Terminator, FollowsChiangsCurve) {
-    // G = min(1, (ng . l) / ((ns . l) (ng . ns))), let through: G + G^2 - G^3. In the plane of all
-    // three, ng at 0, ns at 30 degrees to one side, the light at 60 to the other:
-    // ng . l = 1 / 2, ns . l = cos 90 = 0; at 50 degrees: cos 50 / (cos 80 cos 30) > 1.
+    // G = min(1, 2 (ng . l) / ((ns . l) (ng . ns))), let through: G + G^2 - G^3. In the plane of
+    // all three, ng at 0, ns at 30 degrees to one side, the light at 60 to the other: ng . l = 1 /
+    // 2, ns . l = cos 90 = 0; at 50 degrees: cos 50 / (cos 80 cos 30) > 1.
     const Vec3 ng{0, 0, 1};
     const auto tilted = [](double deg) { return from_spherical(radians(deg), 0); };
     EXPECT_DOUBLE_EQ(terminator_softness(point_with(ng, tilted(-30)), tilted(50)), 1);
-    // The other way round: cos 80 / (cos 50 cos 30) = 0.311941
-    const double g = std::cos(radians(80)) / (std::cos(radians(50)) * std::cos(radians(30)));
-    EXPECT_NEAR(g, 0.311941, 1e-6);
+    // The other way round: 2 cos 80 / (cos 50 cos 30) = 0.623882
+    const double g = 2 * std::cos(radians(80)) / (std::cos(radians(50)) * std::cos(radians(30)));
+    EXPECT_NEAR(g, 0.623882, 1e-6);
     EXPECT_NEAR(terminator_softness(point_with(ng, tilted(30)), tilted(80)),
-                0.311941 + 0.311941 * 0.311941 - std::pow(0.311941, 3), 1e-5);
+                0.623882 + 0.623882 * 0.623882 - std::pow(0.623882, 3), 1e-5);
+    // A fine mesh: tilted by half a degree, whole to the last degree but one
+    EXPECT_EQ(terminator_softness(point_with(ng, tilted(0.5)), tilted(88.5)), 1);
+    EXPECT_LT(terminator_softness(point_with(ng, tilted(0.5)), tilted(89.8)), 1);
     // No jump where the triangle's own shadow begins
     EXPECT_LT(terminator_softness(point_with(ng, tilted(30)), tilted(89.999)), 1e-4);
     // The surface looks away: black by itself, whatever is let through
