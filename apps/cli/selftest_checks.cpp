@@ -2,7 +2,6 @@
 #include "selftest_checks.h"
 
 #include <asperity/core/energy.h>
-#include <asperity/core/error.h>
 #include <asperity/gonio/measure.h>
 #include <asperity/io/result_file.h>
 #include <asperity/surface/make_surface.h>
@@ -26,18 +25,6 @@ Heightfield make(const SurfaceSettings& settings, int threads) {
 Measurement measure_surface(const Heightfield& surface, const Experiment& experiment, int threads) {
     Run run(threads);
     return measure(surface, experiment, run);
-}
-
-/// Runs one check that returns what is wrong; an Error of the library is wrong, too.
-template <typename Body>
-void check(const CheckReport& report, const std::string& name, Body body) {
-    std::string failure;
-    try {
-        failure = body();
-    } catch (const Error& error) {
-        failure = error.what();
-    }
-    report(name, failure);
 }
 
 /// "" when a and b agree within `tolerance`.
@@ -211,7 +198,7 @@ void check_textures(int threads, const CheckReport& report) {
         for (int number = 15; number >= 1; --number) {
             const std::string name =
                 fmt::format("Texture layer {}, {} x {}", number, resolution, resolution);
-            check(report, name, [&]() -> std::string {
+            run_check(report, name, [&]() -> std::string {
                 const auto layer = std::find_if(m.layers.begin(), m.layers.end(),
                                                 [&](const Layer& l) { return l.number == number; });
                 if (layer == m.layers.end()) return "the layer is missing";
@@ -225,31 +212,31 @@ void check_surfaces(int threads, const CheckReport& report) {
     const auto figures = [&](const SurfaceSettings& settings) {
         return statistics(make(settings, threads), threads);
     };
-    check(report, "Surface flat: no height, no slope", [&] {
+    run_check(report, "Surface flat: no height, no slope", [&] {
         const SurfaceStatistics s = figures(shape(SurfaceKind::Flat));
         return first_of({expect_near("RMS height", s.rms_height, 0, 0),
                          expect_near("RMS gradient", s.rms_gradient, 0, 0),
                          expect_near("area ratio", s.area_ratio, 1, 0)});
     });
-    check(report, "Surface vgroove 45: slopes +-1, area sqrt 2", [&] {
+    run_check(report, "Surface vgroove 45: slopes +-1, area sqrt 2", [&] {
         const SurfaceStatistics s = figures(shape(SurfaceKind::VGroove));
         return first_of({expect_near("RMS slope x", s.rms_slope_x, 1, 1e-6),
                          expect_near("RMS slope y", s.rms_slope_y, 0, 0),
                          expect_near("mean tilt", s.mean_tilt_deg, 45, 1e-5),
                          expect_near("area ratio", s.area_ratio, std::sqrt(2.0), 1e-6)});
     });
-    check(report, "Surface pyramids 30: every facet tilts 30 degrees", [&] {
+    run_check(report, "Surface pyramids 30: every facet tilts 30 degrees", [&] {
         const SurfaceStatistics s = figures(shape(SurfaceKind::Pyramids, 30));
         return first_of({expect_near("mean tilt", s.mean_tilt_deg, 30, 1e-4),
                          expect_near("largest tilt", s.max_tilt_deg, 30, 1e-4),
                          expect_near("mean slope x", s.mean_slope_x, 0, 1e-9)});
     });
-    check(report, "Surface gaussian: realised alpha is the asked one", [&] {
+    run_check(report, "Surface gaussian: realised alpha is the asked one", [&] {
         SurfaceSettings settings = shape(SurfaceKind::Gaussian);
         settings.size = 128;
         return expect_near("alpha", figures(settings).rms_gradient, settings.alpha_x, 1e-4);
     });
-    check(report, "Surface thesis: heights within 0 and 10 x roughness", [&] {
+    run_check(report, "Surface thesis: heights within 0 and 10 x roughness", [&] {
         const SurfaceSettings settings = shape(SurfaceKind::Thesis);
         const SurfaceStatistics s = figures(settings);
         const double top = 10 * settings.roughness;
@@ -261,21 +248,21 @@ void check_surfaces(int threads, const CheckReport& report) {
 }
 
 void check_light(int threads, const CheckReport& report) {
-    check(report, "Flat mirror: all energy in the mirror's cell, 15 layers",
-          [&] { return flat_mirror_failure(threads); });
-    check(report, "Groove of 45 degrees: straight back after two reflections",
-          [&] { return groove_failure(threads); });
-    check(report, "Energy, perfect mirrors: launched = escaped + absorbed + truncated",
-          [&] { return balance_failure({}, 16, threads); });
-    check(report, "Energy, one reflection: launched = escaped + absorbed + truncated",
-          [&] { return balance_failure({}, 1, threads); });
-    check(report, "Energy, gold: launched = escaped + absorbed + truncated, per channel", [&] {
+    run_check(report, "Flat mirror: all energy in the mirror's cell, 15 layers",
+              [&] { return flat_mirror_failure(threads); });
+    run_check(report, "Groove of 45 degrees: straight back after two reflections",
+              [&] { return groove_failure(threads); });
+    run_check(report, "Energy, perfect mirrors: launched = escaped + absorbed + truncated",
+              [&] { return balance_failure({}, 16, threads); });
+    run_check(report, "Energy, one reflection: launched = escaped + absorbed + truncated",
+              [&] { return balance_failure({}, 1, threads); });
+    run_check(report, "Energy, gold: launched = escaped + absorbed + truncated, per channel", [&] {
         OpticsSettings gold;
         gold.fresnel = FresnelKind::Conductor;
         gold.material = "Au";
         return balance_failure(gold, 16, threads);
     });
-    check(report, "One checksum with 1, 2 and 3 threads", [] { return threads_failure(); });
+    run_check(report, "One checksum with 1, 2 and 3 threads", [] { return threads_failure(); });
 }
 
 }  // namespace asperity::cli
