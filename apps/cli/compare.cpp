@@ -3,6 +3,7 @@
 #include "console.h"
 #include "help.h"
 #include "options.h"
+#include "output_path.h"
 #include "report_json.h"
 #include "table.h"
 #include "verbs.h"
@@ -12,7 +13,9 @@
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
 #include <asperity/core/run.h>
+#include <asperity/io/image_reader.h>
 #include <asperity/io/result_file.h>
+#include <asperity/render/film.h>
 
 #include <fmt/format.h>
 
@@ -31,12 +34,14 @@ constexpr const char* kClosing =
     "  ggx:alpha=0.3,alpha_y=0.1,masking=correlated|separable,material=Au\n"
     "  beckmann:alpha=0.3,f0=0.9\n"
     "Models are averaged over the same cells. Light and detector options are for two models.\n"
+    "Two pictures (.exr, .hdr) of one size are compared in linear light, pixel by pixel.\n"
     "L1 is the integral of |fa - fb| cos(theta) over the hemisphere (0 equal, 2 apart); noise is\n"
     "what it would be from the error bars alone; RMS is of the same difference, in 1/sr.\n"
     "\n"
     "Examples\n"
     "  asperity compare rough.asperity cook-torrance:roughness=0.55,metallic=1\n"
     "  asperity compare first.asperity second.asperity --json\n"
+    "  asperity compare measured.exr model.exr\n"
     "  asperity compare ggx:alpha=0.3 beckmann:alpha=0.3 --theta 0,30,60 --resolution 64\n";
 
 /// One side of a comparison.
@@ -88,11 +93,30 @@ std::string text_of_comparison(const Comparison& comparison) {
                        comparison.mean_l1, comparison.mean_rms, comparison.max_albedo_difference);
 }
 
+bool is_picture(const std::string& text) {
+    return ending(text) == "exr" || ending(text) == "hdr";
+}
+
+std::string text_of_pictures(const ImageDifference& d, const std::string& a, const std::string& b) {
+    return fmt::format(
+        "A: {}, mean luminance {:.6g}\nB: {}, mean luminance {:.6g}\n"
+        "mean of |A - B| {:.4g}, that is {:.3g} % of A; root mean square {:.4g}\n",
+        a, d.mean_a, b, d.mean_b, d.mean_absolute, 100 * d.relative, d.rms);
+}
+
+Json json_of_pictures(const ImageDifference& d) {
+    return {{"mean_a", d.mean_a},
+            {"mean_b", d.mean_b},
+            {"mean_absolute_difference", d.mean_absolute},
+            {"rms_difference", d.rms},
+            {"relative_difference", d.relative}};
+}
+
 class CompareVerb {
   public:
     explicit CompareVerb(CLI::App& app) {
-        a_ = add_text(app, "a", "A", "a result file or a model", "");
-        b_ = add_text(app, "b", "B", "a result file or a model", "");
+        a_ = add_text(app, "a", "A", "a result file, a model or a rendered picture", "");
+        b_ = add_text(app, "b", "B", "the same", "");
         experiment_.add_to(app, {kLight, kDetector}, false);
         threads_.add_to(app);
         app.add_flag("--json", json_, "print one JSON object")->group(kOutput);
@@ -101,8 +125,9 @@ class CompareVerb {
 
     int run() {
         if (b_->count() == 0) {
-            throw Error(ErrorCode::Usage, "compare needs two result files or models");
+            throw Error(ErrorCode::Usage, "compare needs two result files, models or pictures");
         }
+        if (is_picture(text_of(a_)) && is_picture(text_of(b_))) return compare_pictures();
         const Experiment experiment = experiment_.read();
         validate(experiment);
         const int threads = Run(threads_.threads()).threads();
@@ -117,6 +142,21 @@ class CompareVerb {
     }
 
   private:
+    int compare_pictures() const {
+        if (experiment_.any_given())
+            throw Error(ErrorCode::Usage,
+                        "pictures bring their own light: these options are for "
+                        "two models");
+        const Image a = io::read_image(text_of(a_)), b = io::read_image(text_of(b_));
+        const ImageDifference difference = compare(a, b);
+        if (json_) {
+            write_json(json_of_pictures(difference));
+        } else {
+            write_out(text_of_pictures(difference, text_of(a_), text_of(b_)));
+        }
+        return 0;
+    }
+
     Comparison compare_sides(const Side& a, const Side& b, const Experiment& experiment,
                              int threads) const {
         Comparison comparison;

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 namespace asperity::cli {
 
 namespace {
@@ -39,7 +41,14 @@ void check_materials(const RenderOptions& options) {
         throw Error(ErrorCode::Usage, fmt::format("given {} times, at most twice", brdfs.size()),
                     "brdf");
     for (const std::string& text : brdfs) {
-        if (is_brdf_spec(text)) parse_brdf_spec(text);
+        if (is_brdf_spec(text)) {
+            parse_brdf_spec(text);
+        } else if (std::error_code ignored; !std::filesystem::exists(text, ignored)) {
+            throw Error(ErrorCode::InputOutput,
+                        "there is no such file, and no such model (lambert, cook-torrance, ggx, "
+                        "beckmann)",
+                        text);
+        }
     }
     if (brdfs.size() < kMostBrdfs && options.given("split"))
         throw Error(ErrorCode::Usage, "needs a second --brdf", "split");

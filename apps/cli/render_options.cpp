@@ -131,9 +131,10 @@ Rgb read_colour(const io::SettingValue& value, std::string_view text, const io::
 
 }  // namespace
 
-void RenderOptions::add_to(CLI::App& app) {
+void RenderOptions::add_to(CLI::App& app, std::initializer_list<const char*> only) {
     for (const OptionInfo& info : kRenderOptions) {
         const std::string name = first_name(info.name);
+        if (only.size() > 0 && std::find(only.begin(), only.end(), name) == only.end()) continue;
         const std::string spelling = std::string("--") + info.name;
         names_.push_back(name);
         texts_[name] = {};
@@ -151,7 +152,9 @@ void RenderOptions::add_to(CLI::App& app) {
             add_text(app, spelling, info.metavar, info.help, info.group)->default_str(otherwise);
     }
     for (const char* repeated : {"brdf", "light"}) {
-        options_.at(repeated)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        const auto option = options_.find(repeated);
+        if (option != options_.end())
+            option->second->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     }
 }
 

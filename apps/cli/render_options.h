@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include <array>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <vector>
@@ -22,7 +23,8 @@ namespace asperity::cli {
 /// defaults as texts: what help shows is what happens.
 class RenderOptions {
   public:
-    void add_to(CLI::App& app);
+    /// All of them, or `only` those named.
+    void add_to(CLI::App& app, std::initializer_list<const char*> only = {});
     /// Takes over what the command line says; call it first, once that is parsed.
     void read();
 
