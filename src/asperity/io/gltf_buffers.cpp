@@ -104,11 +104,14 @@ std::string decode_percent(std::string_view text) {
     return result;
 }
 
-/// Whether the file lies in the model's folder or below it.
+/// Whether the file lies in the model's folder or below it, by a name that fits on a line.
 bool is_below(const std::filesystem::path& name) {
-    return !name.empty() && name.is_relative() && name.string().find('\0') == std::string::npos &&
-           name.string().find(':') == std::string::npos &&
-           name.string().find('\\') == std::string::npos &&
+    const auto is_strange = [](char c) {
+        return static_cast<unsigned char>(c) < 0x20 || c == 0x7f || c == ':' || c == '\\';
+    };
+    const std::string& text = name.native();
+    return !name.empty() && name.is_relative() &&
+           std::none_of(text.begin(), text.end(), is_strange) &&
            std::find(name.begin(), name.end(), "..") == name.end();
 }
 

@@ -263,6 +263,10 @@ std::uint64_t drop_undrawable(TriangleMesh& mesh) {
             needs_facet[v] = 0;
         }
     }
+    // Of vertices that no triangle uses any normal will do.
+    for (std::size_t v = 0; v < mesh.normals.size(); ++v) {
+        if (needs_facet[v] != 0) mesh.normals[v] = {0, 1, 0};
+    }
     return dropped;
 }
 
