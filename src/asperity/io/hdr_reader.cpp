@@ -205,7 +205,7 @@ void HdrReader::read_old_runs(std::vector<Rgbe>& line) {
 }
 
 void HdrReader::store(const std::vector<Rgbe>& line, std::size_t number, Image& image) const {
-    constexpr double kMost = std::numeric_limits<float>::max();
+    constexpr auto kMost = static_cast<double>(std::numeric_limits<float>::max());
     const auto width = static_cast<std::size_t>(image.width);
     // -Y and +X are the ways of a picture that is read as text: row 0 on top, column 0 on the left
     const auto along = [](const Axis& axis, std::size_t k) {
