@@ -18,7 +18,6 @@ namespace {
 
 using test::expect_error;
 using test::get;
-using test::put;
 using test::TemporaryFolder;
 
 /// 5 x 3 pixels of 4 samples each.

@@ -184,8 +184,8 @@ TEST(Sky, IsBrightestAboutItsSun) {
 
 TEST(Sky, HasNoNegativeNorInfiniteLight) {
     SkySettings settings;
-    for (double elevation = 0; elevation <= 90; elevation += 5) {
-        for (double turbidity = 2; turbidity <= 10; turbidity += 1) {
+    for (int elevation = 0; elevation <= 90; elevation += 5) {
+        for (int turbidity = 2; turbidity <= 10; ++turbidity) {
             settings.sun_elevation_deg = elevation;
             settings.turbidity = turbidity;
             for (const float value : make_sky_map(settings, 33).rgb) {
