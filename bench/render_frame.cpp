@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// The thesis finds no difference between frames with the simulated BRDF and with Cook-Torrance.
+#include "averages.h"
+#include "render_scenes.h"
+#include "render_tasks.h"
+
+#include <asperity/brdf/spec.h>
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace asperity::bench {
+
+namespace {
+
+struct Options {
+    int size = 256;
+    int repetitions = 9;
+};
+
+struct View {
+    const char* name;
+    const char* model;
+    bool sky;
+    int depth;
+    std::uint32_t passes;
+};
+constexpr View kViews[] = {{"knot, point light, direct", "knot", false, 1, 8},
+                           {"knot, sky, direct", "knot", true, 1, 4},
+                           {"bowl, sky, 4 reflections", "bowl", true, 4, 2}};
+
+Report run(const Options& options) {
+    Report report;
+    report.table = fmt::format(
+        "Frames of {0} x {0}: the simulated BRDF over Cook-Torrance\n"
+        "{1:<28}{2:>16}{3:>16}{4:>8}\n",
+        options.size, "view", "C-T ns/sample", "simulated", "ratio");
+    const Material analytic(parse_brdf_spec("cook-torrance:roughness=0.65,metallic=1"));
+    const Material simulated(simulated_brdf(*measured_brdf()));
+    for (const View& view : kViews) {
+        const RenderBench bench(view.model);
+        RenderSettings settings;
+        settings.width = settings.height = options.size;
+        settings.depth = view.depth;
+        const ModelScene ours = bench.scene(simulated, view.sky),
+                         theirs = bench.scene(analytic, view.sky);
+        // In turns, and the median of the ratios: what else the machine does falls on both
+        std::vector<double> a, b, ratios;
+        for (int k = 0; k < options.repetitions; ++k) {
+            a.push_back(frame_seconds(theirs, bench.camera, settings, view.passes));
+            b.push_back(frame_seconds(ours, bench.camera, settings, view.passes));
+            ratios.push_back(b.back() / a.back());
+        }
+        const double to_ns = 1e9 / (1.0 * options.size * options.size * view.passes);
+        report.table += fmt::format("{:<28}{:>16.0f}{:>16.0f}{:>8.2f}\n", view.name,
+                                    median(a) * to_ns, median(b) * to_ns, median(ratios));
+        report.figures.push_back({{"view", view.name},
+                                  {"cook_torrance_ns", median(a) * to_ns},
+                                  {"simulated_ns", median(b) * to_ns},
+                                  {"ratio", median(ratios)}});
+    }
+    return report;
+}
+
+}  // namespace
+
+Task add_frame(CLI::App& program) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* app = program.add_subcommand("frame", "simulated BRDF over Cook-Torrance");
+    app->add_option("--size", options->size, "of the picture [pixels]")->capture_default_str();
+    app->add_option("--repetitions", options->repetitions)->capture_default_str();
+    return {app, [options] { return run(*options); }};
+}
+
+}  // namespace asperity::bench
