@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -174,6 +175,11 @@ struct TestFile {
     const char* name;
     std::string bytes;
 };
+
+/// As GoogleTest shall name it.
+inline void PrintTo(const TestFile& file, std::ostream* out) {
+    *out << file.name;
+}
 
 /// The tetrahedron in every format and encoding.
 inline std::vector<TestFile> model_test_files() {
