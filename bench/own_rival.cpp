@@ -15,7 +15,7 @@ namespace asperity::bench {
 namespace {
 
 /// As in measure().
-constexpr std::uint64_t kBatches = 32, kLargestBatch = 1 << 18, kChunk = 1024;
+constexpr std::uint64_t kBatches = 32, kLargestBatch = 1 << 18;
 
 DetectorSettings detector_settings() {
     DetectorSettings settings;
@@ -48,14 +48,15 @@ class OwnRival : public Rival {
         const Scene scene{tracer_, fresnel_, detector_, workload.bounces, false};
         LayerSums layer_sums(detector_.cells(), 1, orders, workload.bounces,
                              (rays + batches - 1) / batches);
+        Follower follower;
         BatchSums sums(detector_.cells(), 1, orders, workload.bounces);
         for (std::uint64_t b = 0; b < batches; ++b) {
             const std::uint64_t size = rays / batches + (b < rays % batches ? 1 : 0);
             const LaunchBatch batch(surface_, static_cast<double>(tracer_.max_height()), light,
                                     LaunchPattern::LowDiscrepancy, size, workload.seed, 0,
                                     static_cast<std::uint32_t>(b));
-            for (std::uint64_t first = 0; first < size; first += kChunk) {
-                follow(scene, batch, first, std::min(first + kChunk, size), sums);
+            for (std::uint64_t first = 0; first < size; first += Follower::kMost) {
+                follower.follow(scene, batch, first, std::min(first + Follower::kMost, size), sums);
             }
             layer_sums.add(sums);
             sums.clear();
@@ -81,7 +82,7 @@ class OwnRival : public Rival {
 
     double begin_;
     const Heightfield& surface_;
-    Tracer tracer_;
+    WideTracer tracer_;
     Fresnel fresnel_;
     Detector detector_;
     double build_seconds_;

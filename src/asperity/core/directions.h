@@ -31,6 +31,7 @@ inline double polar_angle(Vec3 w) {
 
 /// Azimuth of `w` in [0, 2 pi); 0 at the pole.
 inline double azimuth(Vec3 w) {
+    if (w.x == 0 && w.y == 0) return 0;  // atan2 would look at the signs of the zeros
     const double phi = std::atan2(w.y, w.x);
     const double wrapped = phi < 0 ? phi + 2 * kPi : phi;
     return wrapped < 2 * kPi ? wrapped : 0.0;

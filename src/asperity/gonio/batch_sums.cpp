@@ -39,24 +39,27 @@ void BatchSums::escape(const PerPath<std::int32_t>& cells, const PerPath<std::in
                        std::size_t count, int order, const Weights& weights) {
     const std::size_t bounce = index(order - 1), kept = std::min(bounce, orders_ - 1);
     const std::size_t stride = orders_ * channels_;
+    // Plain pointers: this is the innermost loop that is not done in lanes
+    std::uint8_t* is_touched = is_touched_.data();
     for (std::size_t k = 0; k < count; ++k) {
-        const std::size_t cell = index(cells[k]);
-        if (!is_touched_[cell]) {
-            is_touched_[cell] = 1;
-            touched_.push_back(static_cast<std::uint32_t>(cell));
-        }
-        if (weights.empty()) energy_[cell * stride + kept] += kRayEnergy;
+        const std::int32_t cell = cells[k];
+        if (is_touched[cell]) continue;
+        is_touched[cell] = 1;
+        touched_.push_back(static_cast<std::uint32_t>(cell));
     }
     if (weights.empty()) {
+        std::uint64_t* energy = energy_.data() + kept;
+        for (std::size_t k = 0; k < count; ++k) energy[index(cells[k]) * stride] += kRayEnergy;
         escaped_by_bounce_[bounce] += count * kRayEnergy;
         return;
     }
     for (std::size_t c = 0; c < channels_; ++c) {
         const PerPath<float>& weight = weights[c];
+        std::uint64_t* sums = energy_.data() + kept * channels_ + c;
         std::uint64_t sum = 0;
         for (std::size_t k = 0; k < count; ++k) {
             const std::uint64_t energy = to_energy(double{weight[index(paths[k])]});
-            energy_[index(cells[k]) * stride + kept * channels_ + c] += energy;
+            sums[index(cells[k]) * stride] += energy;
             sum += energy;
         }
         escaped_by_bounce_[c * bounces_ + bounce] += sum;

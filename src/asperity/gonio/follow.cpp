@@ -29,7 +29,7 @@ void Follower::follow(const Scene& scene, const LaunchBatch& batch, std::uint64_
         // The bounce limit cuts a ray that would need one reflection more
         if (reflections == scene.bounces) {
             for (std::size_t k = 0; k < under_way; ++k)
-                paths_[k] = wave_.arriving.path[static_cast<std::size_t>(wave_.points.ray[k])];
+                paths_[k] = wave_.arriving().path[static_cast<std::size_t>(wave_.points.ray[k])];
             sums.truncate(paths_, under_way, weights_);
             break;
         }
@@ -55,11 +55,11 @@ void Follower::launch_rows(const Scene& scene, const LaunchBatch& batch, std::ui
     const WideTracer& tracer = scene.tracer;
     Vec3 d = -from_spherical(batch.incidence().theta, batch.incidence().phi);
     if (tracer.mirrored()) d.x = -d.x;
-    wave_.arriving.x[0] = static_cast<float>(d.x);
-    wave_.arriving.y[0] = static_cast<float>(d.y);
-    wave_.arriving.z[0] = static_cast<float>(d.z);
+    wave_.arriving().x[0] = static_cast<float>(d.x);
+    wave_.arriving().y[0] = static_cast<float>(d.y);
+    wave_.arriving().z[0] = static_cast<float>(d.z);
     for (std::size_t k = 0; k < end - begin; ++k)
-        wave_.arriving.path[k] = static_cast<std::int32_t>(k);
+        wave_.arriving().path[k] = static_cast<std::int32_t>(k);
 
     tracer.clear(wave_);
     for (std::uint64_t k = begin; k < end;) {
@@ -73,8 +73,8 @@ void Follower::launch_rows(const Scene& scene, const LaunchBatch& batch, std::ui
         if (d.x == 0 && d.y == 0) {
             tracer.launch_down(u, row.v, i, row.j, count, first, wave_);
         } else {
-            LaunchLine line(tracer.heights(), u, row.v, double{tracer.max_height()}, d);
-            tracer.launch(line, i, row.j, count, first, wave_);
+            line_.start(tracer.heights(), u, row.v, double{tracer.max_height()}, d);
+            tracer.launch(line_, i, row.j, count, first, wave_);
         }
         k += static_cast<std::uint64_t>(count);
     }
@@ -97,8 +97,8 @@ void Follower::launch_each(const Scene& scene, const LaunchBatch& batch, std::ui
 
 void Follower::reflect(const Scene& scene, bool parallel) {
     const PaddedHeights& heights = scene.tracer.heights();
-    reflect_paths(wave_.points, wave_.arriving, parallel, static_cast<float>(1 / heights.dx()),
-                  static_cast<float>(1 / heights.dy()), wave_.leaving, cosine_);
+    reflect_paths(wave_.points, wave_.arriving(), parallel, static_cast<float>(1 / heights.dx()),
+                  static_cast<float>(1 / heights.dy()), wave_.leaving(), cosine_);
     // Each facet takes its share
     const std::size_t count = wave_.points.count;
     if (weights_.empty()) return;
@@ -107,7 +107,7 @@ void Follower::reflect(const Scene& scene, bool parallel) {
     scene.fresnel.eval({cosine_.values, count}, out);
     for (std::size_t c = 0; c < weights_.size(); ++c)
         for (std::size_t k = 0; k < count; ++k)
-            weights_[c][static_cast<std::size_t>(wave_.leaving.path[k])] *= reflectance_[c][k];
+            weights_[c][static_cast<std::size_t>(wave_.leaving().path[k])] *= reflectance_[c][k];
 }
 
 void Follower::settle(const Scene& scene, int reflections, BatchSums& sums) {

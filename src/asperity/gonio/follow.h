@@ -43,6 +43,7 @@ class Follower {
     void settle(const Scene& scene, int reflections, BatchSums& sums);
 
     Wave wave_;
+    LaunchLine line_;
     PerPath<float> cosine_, cos_phi_, sin_phi_;
     PerPath<std::int32_t> cells_, paths_;
     std::vector<PerPath<float>> weights_;  ///< [channel], by path; empty for perfect mirrors

@@ -15,7 +15,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace asperity::HWY_NAMESPACE {
 
-/// The surface, with its constants in registers.
+/// The surface, with its constants in registers. kLongRows: rows of 2^15 samples and more, too long
+/// for one packed multiplication.
+template <bool kLongRows>
 class Ground {
   public:
     HWY_INLINE explicit Ground(const WideGrid& grid)
@@ -25,6 +27,8 @@ class Ground {
           steepest(all(grid.steepest)),
           longest_leap(all(grid.longest_leap)),
           periodic(grid.periodic),
+          horizon_pays(grid.horizon_pays),
+          leaps_pay(grid.leaps_pay),
           middle_(grid.middle),
           pitch_(grid.pitch),
           horizon_(grid.horizon),
@@ -37,11 +41,13 @@ class Ground {
 
     /// Height of a vertex on the surface or in its margin.
     HWY_INLINE Floats height(Ints vertex) const {
-        if (HWY_LIKELY(pitch_ < 1 << 15)) return gather(middle_, index_of(vertex, pitch_));
-        // Rows too long for the packed multiplication: in two halves
-        const Ints row = hn::And(vertex, all(~0xffff));
-        const std::int32_t half = pitch_ / 2;
-        return gather(middle_, hn::Add(index_of(vertex, half), index_of(row, half)));
+        if constexpr (!kLongRows) {
+            return gather(middle_, index_of(vertex, pitch_));
+        } else {
+            const Ints row = hn::And(vertex, all(~0xffff));
+            const std::int32_t half = pitch_ / 2;
+            return gather(middle_, hn::Add(index_of(vertex, half), index_of(row, half)));
+        }
     }
 
     /// The same vertex, or cell, inside the first tile; at most one tile away from it.
@@ -73,7 +79,7 @@ class Ground {
     }
 
     const Floats per_x, per_y, max_height, steepest, longest_leap;
-    const bool periodic;
+    const bool periodic, horizon_pays, leaps_pay;
 
   private:
     const float* middle_;
@@ -83,6 +89,15 @@ class Ground {
     const int pool_shift_;
     const Ints first_, last_, cells_;
 };
+
+/// Calls work(ground) with the ground that fits the grid.
+template <class Work>
+HWY_INLINE void on_ground(const WideGrid& grid, Work work) {
+    if (grid.pitch < 1 << 15)
+        work(Ground<false>(grid));
+    else
+        work(Ground<true>(grid));
+}
 
 /// Horizon::sector_of.
 HWY_INLINE Ints sector_of(Floats x, Floats y) {
@@ -100,7 +115,8 @@ struct Line {
     Floats du, dv;
     Floats k_x, k_y;
 };
-HWY_INLINE Line line_of(const Ground& ground, Floats x, Floats y, Floats z) {
+template <class GroundT>
+HWY_INLINE Line line_of(const GroundT& ground, Floats x, Floats y, Floats z) {
     const Floats du = hn::Mul(x, ground.per_x), dv = hn::Mul(y, ground.per_y);
     const Floats rate = hn::Div(z, hn::Add(hn::Mul(du, du), hn::Mul(dv, dv)));
     return {du, dv, hn::Mul(du, rate), hn::Mul(dv, rate)};

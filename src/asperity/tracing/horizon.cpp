@@ -15,7 +15,7 @@ using detail::HorizonBlock;
 /// 2^shift cells on a side share an entry.
 int pool_shift_for(int cells_x, int cells_y) {
     const std::int64_t cells = std::int64_t{cells_x} * cells_y;
-    return cells <= 1024 * 1024 ? 0 : cells <= 4096 * 4096 ? 1 : 2;
+    return cells <= 128 * 128 ? 0 : cells <= 4096 * 4096 ? 1 : 2;
 }
 
 /// Slope by which rounding, and directions a hair outside their sector, may err.

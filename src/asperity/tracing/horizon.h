@@ -48,9 +48,9 @@ class Horizon {
     }
     static constexpr float kStep = kSteepest / (254.0f * 254.0f);
 
-    /// Cells share an entry in blocks of 2^pool_shift() x 2^pool_shift(): 0 up to 1024 x 1024
-    /// cells, 1 up to 4096 x 4096, else 2, so that memory stays at most 4 bytes a cell on large
-    /// surfaces.
+    /// Cells share an entry in blocks of 2^pool_shift() x 2^pool_shift(): 0 up to 128 x 128 cells,
+    /// 1 up to 4096 x 4096, else 2. A looser bound costs less than an entry that is not in the
+    /// cache: measured, docs/performance.md.
     int pool_shift() const { return pool_shift_; }
     /// Blocks from one row of blocks to the next.
     int pitch() const { return pitch_; }

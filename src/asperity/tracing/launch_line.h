@@ -23,36 +23,36 @@ class LaunchLine {
 
     /// A triangle that may be hit. Vertices are counted from the cell of the start.
     struct Triangle {
-        std::int32_t x, y;  ///< corner O
-        float side;         ///< as in FacetPoints
-        float w, z;         ///< of the rays' line beside O, as in TriangleHits
+        std::int32_t corner;  ///< O, packed
+        float side;           ///< as in FacetPoints
+        float w, z;           ///< of the rays' line beside O, as in TriangleHits
     };
-    struct Step {
-        std::ptrdiff_t c, fresh;      ///< vertices to look up, as indices from the start's cell
-        float z_c, z_fresh;           ///< height of the ray beside them
-        std::int32_t right;           ///< all bits: C lies right of the ray
-        float side_left, side_right;  ///< distances from the line of the ends of the side edge
-        float w_a, w_b;               ///< and of the next edge (A, B)
+    /// An edge between two vertices on either side of the rays, looked up as indices from the
+    /// start's cell. The surface there rises above a ray just when
+    /// height(left) * w_right - height(right) * w_left < limit, see wide_walk-inl.h.
+    struct Edge {
+        std::ptrdiff_t left, right;
+        float w_left, w_right, limit;
     };
     struct Round {
-        std::ptrdiff_t a, b;  ///< the edge it begins at
-        float z_a, z_b, w_a, w_b;
-        Step steps[kSteps];
-        Triangle triangles[kEdges];  ///< what is hit when the edge of this number is below
-        int lowest_x, lowest_y;      ///< no vertex of the round lies before this one
-        float lowest_z;              ///< no ray of the round comes lower than this
+        Edge edges[kEdges];
+        int lowest_x, lowest_y;  ///< no vertex of the round lies before this one
+        float lowest_z;          ///< no ray of the round comes lower than this
     };
     /// A round reaches at most this far from its lowest vertex, in x and in y.
     static constexpr int kReach = kSteps + 3;
 
-    /// Rays start at (u, v) in [0, 1) of their cell, at height `z`, in direction `d`, which is in
-    /// units of length and in the frame of `heights`; d.x, d.y not both 0.
-    LaunchLine(const PaddedHeights& heights, double u, double v, double z, Vec3 d);
+    /// Begins a new line. Rays start at (u, v) in [0, 1] of their cell, at height `z`, in direction
+    /// `d`, which is in units of length and in the frame of `heights`; d.x, d.y not both 0.
+    void start(const PaddedHeights& heights, double u, double v, double z, Vec3 d);
 
     const Round& round(std::size_t k) {
         while (k >= rounds_.size()) add_round();
-        return rounds_[k];
+        return rounds_.data()[k];
     }
+    /// triangles()[k * kEdges + edge]: what is hit when this edge of round k is the first below the
+    /// surface; of the rounds asked for.
+    const Triangle* triangles() const { return triangles_.data(); }
 
     double du() const { return du_; }
     double dv() const { return dv_; }
@@ -68,13 +68,15 @@ class LaunchLine {
     double w(Vertex a) const { return du_ * (a.y - v_) - dv_ * (a.x - u_); }
     double z(Vertex a) const { return z_ + k_x_ * (a.x - u_) + k_y_ * (a.y - v_); }
     std::ptrdiff_t index(Vertex a) const { return static_cast<std::ptrdiff_t>(a.y) * pitch_ + a.x; }
-    Triangle triangle(Vertex a, Vertex b, Vertex c) const;
+    Edge edge(Vertex left, Vertex right) const;
+    void add_triangle(Vertex a, Vertex b, Vertex c);
     void add_round();
 
-    int pitch_;
-    double u_, v_, z_, du_, dv_, k_x_, k_y_;
+    int pitch_ = 0;
+    double u_ = 0, v_ = 0, z_ = 0, du_ = 0, dv_ = 0, k_x_ = 0, k_y_ = 0;
     Vertex step_x_{}, step_y_{}, a_{};
     std::vector<Round> rounds_;
+    std::vector<Triangle> triangles_;
 };
 
 }  // namespace asperity

@@ -12,6 +12,9 @@ namespace asperity {
 struct WideGrid {
     WideGrid(const PaddedHeights& heights, const Horizon& horizon);
 
+    // How to trace follows from the surface alone, never from how it went so far: the same bits
+    // for any number of threads.
+
     const float* middle;  ///< sample (middle_x, middle_y): packed vertices are counted from here
     int pitch;            ///< samples from row to row
     int middle_x, middle_y, cells_x, cells_y;
@@ -21,6 +24,8 @@ struct WideGrid {
     float steepest;               ///< no facet is steeper: whoever climbs more steeply escapes
     const std::uint8_t* horizon;  ///< the 16 bytes of the middle cell's block
     int horizon_pitch, pool_shift;
+    bool horizon_pays;   ///< enough paths are free by their facet's horizon to look at it
+    bool leaps_pay;      ///< the surface is smooth enough for paths to leap
     float longest_leap;  ///< rhombi a path may leap over, so that one wrap brings it home
 };
 

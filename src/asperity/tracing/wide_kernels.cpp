@@ -17,6 +17,7 @@
 namespace asperity {
 
 HWY_EXPORT(LaunchSideBySide);
+HWY_EXPORT(IdentifyLaunched);
 HWY_EXPORT(LaunchStraightDown);
 HWY_EXPORT(PartFree);
 HWY_EXPORT(SetOut);
@@ -28,6 +29,9 @@ HWY_EXPORT(Land);
 void launch_side_by_side(const LaunchPlace& place, LaunchLine& line, int i, int j, int count,
                          int first, LaunchHits& hits) {
     HWY_DYNAMIC_DISPATCH(LaunchSideBySide)(place, line, i, j, count, first, hits);
+}
+void identify_launched(const LaunchHits& launched, const LaunchLine& line, TriangleHits& hits) {
+    HWY_DYNAMIC_DISPATCH(IdentifyLaunched)(launched, line, hits);
 }
 void launch_straight_down(const WideGrid& grid, float u, float v, int i, int j, int count,
                           int first, FacetPoints& points) {

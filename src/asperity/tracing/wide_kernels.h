@@ -31,6 +31,7 @@ struct WaveWork {
 /// wide_launch-inl.h
 void launch_side_by_side(const LaunchPlace& place, LaunchLine& line, int i, int j, int count,
                          int first, LaunchHits& hits);
+void identify_launched(const LaunchHits& launched, const LaunchLine& line, TriangleHits& hits);
 void launch_straight_down(const WideGrid& grid, float u, float v, int i, int j, int count,
                           int first, FacetPoints& points);
 /// wide_leave-inl.h

@@ -23,9 +23,9 @@ HWY_INLINE Ints corner_v(Floats side) {
 }
 
 /// Tells which triangles were hit, and where the lines of the paths are beside their corners.
-void Identify(const WideGrid& grid, const RawHits& raw, const Directions& directions,
-              TriangleHits& hits) {
-    const Ground ground(grid);
+template <class GroundT>
+void identify_on(const GroundT& ground, const RawHits& raw, const Directions& directions,
+                 TriangleHits& hits) {
     for (std::size_t k = 0; k < raw.count; k += kLanes) {
         const Mask valid = first_lanes(k, raw.count);
         // The triangle A, B, A + step_x or A - step_y; O is the corner with the right angle
@@ -58,12 +58,17 @@ void Identify(const WideGrid& grid, const RawHits& raw, const Directions& direct
     }
     hits.count = raw.count;
 }
+void Identify(const WideGrid& grid, const RawHits& raw, const Directions& directions,
+              TriangleHits& hits) {
+    on_ground(grid,
+              [&](const auto& ground) HWY_ATTR { identify_on(ground, raw, directions, hits); });
+}
 
 /// Finds the points where the paths meet their triangles: the surface above the path, g, and the
 /// distance from its line, w, both vanish there, so its barycentric coordinates are the cross
 /// product of both at the three corners.
-void Land(const WideGrid& grid, const TriangleHits& hits, FacetPoints& points) {
-    const Ground ground(grid);
+template <class GroundT>
+void land_on(const GroundT& ground, const TriangleHits& hits, FacetPoints& points) {
     const Floats zero = hn::Zero(kFloat), one = all(1.0f);
     for (std::size_t k = 0; k < hits.count; k += kLanes) {
         const Mask valid = first_lanes(k, hits.count);
@@ -98,6 +103,9 @@ void Land(const WideGrid& grid, const TriangleHits& hits, FacetPoints& points) {
         store(load(hits.ray, k), points.ray, k);
     }
     points.count = hits.count;
+}
+void Land(const WideGrid& grid, const TriangleHits& hits, FacetPoints& points) {
+    on_ground(grid, [&](const auto& ground) HWY_ATTR { land_on(ground, hits, points); });
 }
 
 }  // namespace asperity::HWY_NAMESPACE

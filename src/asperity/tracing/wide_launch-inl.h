@@ -16,34 +16,27 @@
 HWY_BEFORE_NAMESPACE();
 namespace asperity::HWY_NAMESPACE {
 
-/// Rays side by side, and how far each has come in a round: the number of edges tested before one
-/// was below the surface.
-struct Group {
-    Floats g_a, g_b;
-    Floats hit;  ///< negative once the lane has hit
-    Ints edges;  ///< minus the edges tested since the hit, this one included
+/// Vectors of rays that fly side by side; constants are fetched once for all of them.
+constexpr int kVectors = kLaunchGroup / static_cast<int>(kLanes);
 
-    HWY_INLINE void test(Floats above) {
-        hit = hn::Or(hit, above);
-        edges = hn::Add(edges, hn::BroadcastSignBit(hn::BitCast(kInt, hit)));
-    }
-};
-
-/// One round for the rays that start at heights[...]: `at` points to the first ray's start cell.
-HWY_INLINE void fly_round(const LaunchLine::Round& round, const float* at, Group& group) {
-    group.edges = hn::Zero(kInt);
-    group.g_a = hn::Sub(hn::LoadU(kFloat, at + round.a), all(round.z_a));
-    group.g_b = hn::Sub(hn::LoadU(kFloat, at + round.b), all(round.z_b));
-    group.test(Strip::at_edge(group.g_a, all(round.w_a), group.g_b, all(round.w_b)));
-    for (const LaunchLine::Step& step : round.steps) {
-        const Mask right = hn::RebindMask(kFloat, hn::MaskFromVec(all(step.right)));
-        const Floats g_c = hn::Sub(hn::LoadU(kFloat, at + step.c), all(step.z_c));
-        group.test(Strip::at_edge(select(right, group.g_a, g_c), all(step.side_left),
-                                  select(right, g_c, group.g_b), all(step.side_right)));
-        const Floats g_fresh = hn::Sub(hn::LoadU(kFloat, at + step.fresh), all(step.z_fresh));
-        group.g_a = select(right, g_fresh, g_c);
-        group.g_b = select(right, g_c, g_fresh);
-        group.test(Strip::at_edge(group.g_a, all(step.w_a), group.g_b, all(step.w_b)));
+/// The number of the first edge of the round at which each ray is below the surface, or kEdges;
+/// `at` points to the sample at the first ray's cell. Backwards, so that the first one wins.
+HWY_INLINE void find_first_edges(const LaunchLine::Round& round, const float* at,
+                                 Floats (&first)[kVectors]) {
+    for (Floats& f : first) f = hn::BitCast(kFloat, all(LaunchLine::kEdges));
+    for (int n = LaunchLine::kEdges - 1; n >= 0; --n) {
+        const LaunchLine::Edge& edge = round.edges[n];
+        const Floats w_left = all(edge.w_left), w_right = all(edge.w_right),
+                     limit = all(edge.limit), number = hn::BitCast(kFloat, all(n));
+        const float* left = at + edge.left;
+        const float* right = at + edge.right;
+        for (std::size_t k = 0; k < kVectors; ++k) {
+            const Floats above =
+                hn::Sub(hn::Sub(hn::Mul(hn::LoadU(kFloat, left + k * kLanes), w_right),
+                                hn::Mul(hn::LoadU(kFloat, right + k * kLanes), w_left)),
+                        limit);
+            first[k] = hn::IfNegativeThenElse(above, number, first[k]);
+        }
     }
 }
 
@@ -57,15 +50,11 @@ HWY_INLINE int wrapped(int index, int count) {
 /// A group of kLaunchGroup rays, `count` of them wanted, from cell (i, j) on; hits are appended.
 HWY_INLINE void launch_group(const LaunchPlace& place, LaunchLine& line, int i, int j, int first,
                              int count, LaunchHits& hits) {
-    constexpr int kVectors = kLaunchGroup / static_cast<int>(kLanes);
     const PaddedHeights& heights = *place.heights;
-    Group groups[kVectors];
     Mask open[kVectors];  // lanes that have not hit yet
-    for (int n = 0; n < kVectors; ++n) {
-        groups[n].hit = hn::Zero(kFloat);
+    for (int n = 0; n < kVectors; ++n)
         open[n] =
             first_lanes(static_cast<std::size_t>(n) * kLanes, static_cast<std::size_t>(count));
-    }
     bool flying = true;
     for (std::size_t r = 0; flying; ++r) {
         const LaunchLine::Round& round = line.round(r);
@@ -76,22 +65,21 @@ HWY_INLINE void launch_group(const LaunchPlace& place, LaunchLine& line, int i, 
         const float* at = heights.origin() +
                           static_cast<std::ptrdiff_t>(y - round.lowest_y) * heights.pitch() +
                           (x - round.lowest_x);
+        Floats first_edges[kVectors];
+        find_first_edges(round, at, first_edges);
         flying = false;
         for (int n = 0; n < kVectors; ++n) {
-            Group& group = groups[n];
-            fly_round(round, at + n * static_cast<int>(kLanes), group);
-            const Mask hit = hn::And(open[n], negative(group.hit));
+            const Ints edge = hn::BitCast(kInt, first_edges[n]);
+            const Mask below = hn::RebindMask(kFloat, hn::Lt(edge, all(LaunchLine::kEdges)));
+            const Mask hit = hn::And(open[n], below);
             if (!hn::AllFalse(kFloat, hit)) {
-                // Edges before the first one below the surface: the number of the triangle
-                const Ints triangle = hn::Add(all(LaunchLine::kEdges), group.edges);
                 const Ints lane = hn::Iota(kInt, n * static_cast<int>(kLanes));
-                const int base_x = x - round.lowest_x - place.grid->middle_x;
-                const int base_y = y - round.lowest_y - place.grid->middle_y;
+                const Ints cell_x = hn::Add(all(x - round.lowest_x - place.grid->middle_x), lane);
+                const Ints cell_y = all((y - round.lowest_y - place.grid->middle_y) * (1 << 16));
                 const Packer pack(hit);
-                pack(hn::Add(all(static_cast<std::int32_t>(r) * LaunchLine::kEdges), triangle),
+                pack(hn::Add(all(static_cast<std::int32_t>(r) * LaunchLine::kEdges), edge),
                      hits.triangle, hits.count);
-                pack(hn::Add(all(base_x), lane), hits.x, hits.count);
-                pack(all(base_y), hits.y, hits.count);
+                pack(hn::Or(hn::And(cell_x, all(0xffff)), cell_y), hits.cell, hits.count);
                 pack(hn::Add(all(first), lane), hits.ray, hits.count);
                 hits.count += pack.count;
                 open[n] = hn::AndNot(hit, open[n]);
@@ -109,10 +97,36 @@ void LaunchSideBySide(const LaunchPlace& place, LaunchLine& line, int i, int j, 
     }
 }
 
+/// Looks up the triangles that were hit, and appends them to `hits`.
+void IdentifyLaunched(const LaunchHits& launched, const LaunchLine& line, TriangleHits& hits) {
+    static_assert(sizeof(LaunchLine::Triangle) == 4 * sizeof(float));
+    const float* triangles = &line.triangles()->side - 1;  // corner, side, w, z
+    const Floats du = all(static_cast<float>(line.du())), dv = all(static_cast<float>(line.dv()));
+    const Floats k_x = all(static_cast<float>(line.k_x())),
+                 k_y = all(static_cast<float>(line.k_y()));
+    for (std::size_t k = 0; k < launched.count; k += kLanes) {
+        const Ints at =
+            hn::ShiftLeft<2>(only(first_lanes(k, launched.count), load(launched.triangle, k)));
+        const auto append = [&](auto value, auto& to) HWY_ATTR {
+            hn::StoreU(value, hn::DFromV<decltype(value)>(), to.values + hits.count + k);
+        };
+        append(plus(load(launched.cell, k), hn::BitCast(kInt, gather(triangles, at))), hits.corner);
+        append(gather(triangles + 1, at), hits.side);
+        append(gather(triangles + 2, at), hits.w);
+        append(gather(triangles + 3, at), hits.z);
+        append(du, hits.du);
+        append(dv, hits.dv);
+        append(k_x, hits.k_x);
+        append(k_y, hits.k_y);
+        append(load(launched.ray, k), hits.ray);
+    }
+    hits.count += launched.count;
+}
+
 /// Rays straight down meet the facet below them; nothing to fly.
 void LaunchStraightDown(const WideGrid& grid, float u, float v, int i, int j, int count, int first,
                         FacetPoints& points) {
-    const Ground ground(grid);
+    const Ground<true> ground(grid);
     const bool upper = u + v >= 1;
     const Floats side = all(upper ? -1.0f : 1.0f);
     const int corner = upper ? 1 : 0;

@@ -18,11 +18,11 @@ struct LaunchPlace {
     const RowTops* tops;  ///< windows of kLaunchGroup + kReach by kReach
 };
 
-/// Rays of one line that have hit: which triangle, as round * kEdges + edge, and the cell that the
-/// vertices of the triangle are counted from, from the middle of the surface.
+/// Rays of one line that have hit: which triangle, as LaunchLine::triangle numbers them, and the
+/// packed cell that its vertices are counted from.
 struct LaunchHits {
     std::size_t count = 0;
-    PerPath<std::int32_t> triangle, x, y, ray;
+    PerPath<std::int32_t> triangle, cell, ray;
 };
 
 }  // namespace asperity

@@ -32,8 +32,9 @@ HWY_INLINE Floats height_at(Floats height, Floats rise_u, Floats rise_v, Floats 
 
 /// Parts the paths that are free for certain from those that have to be followed: `points` and
 /// `directions` keep the latter, side by side; `escapes` gets the others.
-void PartFree(const WideGrid& grid, FacetPoints& points, Directions& directions, Escapes& escapes) {
-    const Ground ground(grid);
+template <class GroundT>
+void part_free_on(const GroundT& ground, FacetPoints& points, Directions& directions,
+                  Escapes& escapes) {
     std::size_t kept = 0;
     for (std::size_t k = 0; k < points.count; k += kLanes) {
         const Mask valid = first_lanes(k, points.count);
@@ -47,7 +48,8 @@ void PartFree(const WideGrid& grid, FacetPoints& points, Directions& directions,
 
         const Ints sector = sector_of(x, y);
         const Ints cell = only(valid, ground.wrap(cell_of(corner, side)));
-        const Floats slope = hn::Min(ground.horizon(cell, sector), ground.steepest);
+        Floats slope = ground.steepest;
+        if (ground.horizon_pays) slope = hn::Min(ground.horizon(cell, sector), slope);
         const Floats here = height_at(height, rise_u, rise_v, u, v);
         const Mask on_top = hn::And(hn::Ge(z, hn::Zero(kFloat)), hn::Ge(here, ground.max_height));
         const Mask free = hn::And(valid, hn::Or(on_top, hn::Gt(z, hn::Mul(slope, level))));
@@ -57,7 +59,7 @@ void PartFree(const WideGrid& grid, FacetPoints& points, Directions& directions,
         pack_free(y, escapes.y, escapes.count);
         pack_free(z, escapes.z, escapes.count);
         pack_free(path, escapes.path, escapes.count);
-        if (!grid.periodic) {
+        if (!ground.periodic) {
             const Floats at_x = hn::Add(hn::ConvertTo(kFloat, x_of(corner)), hn::Mul(side, u));
             const Floats at_y = hn::Add(hn::ConvertTo(kFloat, y_of(corner)), hn::Mul(side, v));
             pack_free(at_x, escapes.at_x, escapes.count);
@@ -84,6 +86,10 @@ void PartFree(const WideGrid& grid, FacetPoints& points, Directions& directions,
     }
     points.count = kept;
 }
+void PartFree(const WideGrid& grid, FacetPoints& points, Directions& directions, Escapes& escapes) {
+    on_ground(grid, [&](const auto& ground)
+                        HWY_ATTR { part_free_on(ground, points, directions, escapes); });
+}
 
 /// Sets every path onto its strip of rhombi. Paths start on their facets, or over them at the
 /// heights `start_height`.
@@ -92,9 +98,9 @@ void PartFree(const WideGrid& grid, FacetPoints& points, Directions& directions,
 /// every second time are the diagonals (dv >= 0), the x lines (-du <= dv < 0) or the y lines (dv <
 /// -du). Two of them and what lies between are a rhombus; the next edge of the kind lies one of two
 /// steps ahead, step_x or step_y.
-void SetOut(const WideGrid& grid, const FacetPoints& points, const Directions& directions,
-            const PerPath<float>* start_height, Walkers& walkers) {
-    const Ground ground(grid);
+template <class GroundT>
+void set_out_on(const GroundT& ground, const FacetPoints& points, const Directions& directions,
+                const PerPath<float>* start_height, Walkers& walkers) {
     const Floats zero = hn::Zero(kFloat), one = all(1.0f);
     const Ints v10 = all(pack_vertex(1, 0)), v01 = all(pack_vertex(0, 1)),
                v11 = all(pack_vertex(1, 1)), v1m = all(pack_vertex(1, -1)),
@@ -164,6 +170,12 @@ void SetOut(const WideGrid& grid, const FacetPoints& points, const Directions& d
         store(hn::Iota(kInt, static_cast<std::int32_t>(k)), walkers.ray, k);
     }
     walkers.count = points.count;
+}
+void SetOut(const WideGrid& grid, const FacetPoints& points, const Directions& directions,
+            const PerPath<float>* start_height, Walkers& walkers) {
+    on_ground(grid, [&](const auto& ground) HWY_ATTR {
+        set_out_on(ground, points, directions, start_height, walkers);
+    });
 }
 
 }  // namespace asperity::HWY_NAMESPACE

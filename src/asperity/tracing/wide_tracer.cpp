@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace asperity {
@@ -48,25 +47,7 @@ void WideTracer::launch(LaunchLine& line, int i, int j, int count, int first, Wa
     launched.count = 0;
     launch_side_by_side({&grid_, &heights_, &*tops_}, line, i, j, count, first, launched);
 
-    // Look the triangles up in the line's way
-    const float du = static_cast<float>(line.du()), dv = static_cast<float>(line.dv());
-    const float k_x = static_cast<float>(line.k_x()), k_y = static_cast<float>(line.k_y());
-    for (std::size_t k = 0; k < launched.count; ++k) {
-        const auto edge = static_cast<std::size_t>(launched.triangle[k]);
-        const LaunchLine::Triangle& t =
-            line.round(edge / LaunchLine::kEdges).triangles[edge % LaunchLine::kEdges];
-        const std::size_t to = hits.count + k;
-        hits.corner[to] = pack_vertex(launched.x[k] + t.x, launched.y[k] + t.y);
-        hits.side[to] = t.side;
-        hits.w[to] = t.w;
-        hits.z[to] = t.z;
-        hits.du[to] = du;
-        hits.dv[to] = dv;
-        hits.k_x[to] = k_x;
-        hits.k_y[to] = k_y;
-        hits.ray[to] = launched.ray[k];
-    }
-    hits.count += launched.count;
+    identify_launched(launched, line, hits);
 }
 
 void WideTracer::launch_down(double u, double v, int i, int j, int count, int first,
@@ -112,7 +93,7 @@ void WideTracer::set_direction(Directions& to, std::size_t k, Vec3 d, std::int32
 void WideTracer::enter(std::span<const Ray> rays, Wave& wave) const {
     clear(wave);
     for (std::size_t k = 0; k < rays.size(); ++k) {
-        set_direction(wave.arriving, k, rays[k].direction, static_cast<std::int32_t>(k));
+        set_direction(wave.arriving(), k, rays[k].direction, static_cast<std::int32_t>(k));
         place(rays[k], k, wave);
     }
     wave.points.count = rays.size();
@@ -122,7 +103,7 @@ void WideTracer::enter(std::span<const Ray> rays, Wave& wave) const {
 /// Moves paths from over wave.points to their first facets.
 void WideTracer::fall(Wave& wave) const {
     // Straight down there is no way to go: they are there
-    Directions& d = wave.arriving;
+    Directions& d = wave.arriving();
     const std::size_t count = wave.points.count;
     bool straight = true;
     for (std::size_t k = 0; k < count; ++k) straight = straight && !(d.level[k] > 0);
@@ -135,9 +116,9 @@ void WideTracer::fall(Wave& wave) const {
 
 void WideTracer::leave(Wave& wave) const {
     wave.escapes.count = wave.edge_count = wave.stuck_count = 0;
-    std::swap(wave.arriving, wave.leaving);
-    part_free(grid_, wave.points, wave.arriving, wave.escapes);
-    set_out(grid_, wave.points, wave.arriving, nullptr, wave.work_->walkers);
+    wave.turn();
+    part_free(grid_, wave.points, wave.arriving(), wave.escapes);
+    set_out(grid_, wave.points, wave.arriving(), nullptr, wave.work_->walkers);
     walk(wave, false);
 }
 
@@ -148,10 +129,10 @@ void WideTracer::walk(Wave& wave, bool from_above) const {
     asperity::walk(grid_, from_above, kMostRounds, work.walkers, work.raw, work.leavers);
     for (std::size_t k = 0; k < work.walkers.count; ++k)
         wave.stuck[wave.stuck_count++] =
-            wave.arriving.path[static_cast<std::size_t>(work.walkers.ray[k])];
-    release(work.leavers, wave.arriving, !heights_.periodic(), wave.escapes);
+            wave.arriving().path[static_cast<std::size_t>(work.walkers.ray[k])];
+    release(work.leavers, wave.arriving(), !heights_.periodic(), wave.escapes);
     if (!heights_.periodic()) settle_edges(wave);
-    identify(grid_, work.raw, wave.arriving, work.hits);
+    identify(grid_, work.raw, wave.arriving(), work.hits);
     asperity::land(grid_, work.hits, wave.points);
 }
 
@@ -207,7 +188,7 @@ void WideTracer::trace_some(std::span<const std::size_t> chosen, bool on_facet, 
     clear(wave);
     for (std::size_t k = 0; k < chosen.size(); ++k) {
         const Ray& ray = rays[chosen[k]];
-        set_direction(on_facet ? wave.leaving : wave.arriving, k, ray.direction,
+        set_direction(on_facet ? wave.leaving() : wave.arriving(), k, ray.direction,
                       static_cast<std::int32_t>(k));
         place(ray, k, wave);
     }
@@ -227,7 +208,7 @@ void WideTracer::trace_some(std::span<const std::size_t> chosen, bool on_facet, 
     for (std::size_t k = 0; k < wave.edge_count; ++k) mark(wave.edge[k], RayEnd::Edge);
     for (std::size_t k = 0; k < wave.stuck_count; ++k) mark(wave.stuck[k], RayEnd::Stuck);
     for (std::size_t k = 0; k < wave.points.count; ++k) {
-        const auto path = wave.arriving.path[static_cast<std::size_t>(wave.points.ray[k])];
+        const auto path = wave.arriving().path[static_cast<std::size_t>(wave.points.ray[k])];
         const std::size_t ray = chosen[static_cast<std::size_t>(path)];
         ends[ray] = RayEnd::Hit;
         stand(wave.points, k, rays[ray]);

@@ -28,7 +28,8 @@ class Wave {
     Wave& operator=(Wave&&) noexcept;
 
     /// The directions the paths at `points` came with, and after a reflection go on with.
-    Directions arriving, leaving;
+    Directions& arriving() { return directions_[turn_]; }
+    Directions& leaving() { return directions_[1 - turn_]; }
     FacetPoints points;           ///< paths that have met a facet; ray: index into arriving
     Escapes escapes;              ///< paths that are free, by direction
     std::size_t edge_count = 0;   ///< paths lost through the side of a finite patch,
@@ -38,6 +39,10 @@ class Wave {
 
   private:
     friend class WideTracer;
+    void turn() { turn_ = 1 - turn_; }
+
+    Directions directions_[2];
+    int turn_ = 0;
     std::unique_ptr<WaveWork> work_;
 };
 
@@ -74,8 +79,9 @@ class WideTracer {
     void land(Wave& wave) const;
     /// Moves rays from free space, at most kWave, to their first facets; path k is ray k.
     void enter(std::span<const Ray> rays, Wave& wave) const;
-    /// Moves the paths at wave.points along wave.leaving to their next facets, wave.points again,
-    /// or out. `leaving` becomes `arriving`; the lists of those that ended are made anew.
+    /// Moves the paths at wave.points along wave.leaving() to their next facets, wave.points again,
+    /// or out; these directions become the arriving ones. The lists of those that ended are made
+    /// anew.
     void leave(Wave& wave) const;
 
     /// Advances each ray to its next facet or out, as Tracer::trace; for tests and single rays.

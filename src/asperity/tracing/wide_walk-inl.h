@@ -73,7 +73,8 @@ struct FirstHit {
 };
 
 /// Goes to the same edge of the next rhombus, over two edges.
-HWY_INLINE void step(const Ground& ground, Strip& s, FirstHit& first, Floats spared) {
+template <class GroundT>
+HWY_INLINE void step(const GroundT& ground, Strip& s, FirstHit& first, Floats spared) {
     // C, and on which side of the path it lies
     const Floats w_c = hn::Add(s.w_a, s.w_x);
     const Floats g_c = hn::Sub(ground.height(plus(s.a, s.step_x)), hn::Add(s.z_a, s.z_x));
@@ -99,7 +100,8 @@ HWY_INLINE void step(const Ground& ground, Strip& s, FirstHit& first, Floats spa
 
 /// Leaps ahead over as many rhombi as the horizon of the cell below allows, where that is worth
 /// it. `rise` is what the horizon may climb per length of path. Returns the lanes that leapt.
-HWY_INLINE Mask leap(const Ground& ground, Strip& s, Mask may, Floats rise, Floats climb,
+template <class GroundT>
+HWY_INLINE Mask leap(const GroundT& ground, Strip& s, Mask may, Floats rise, Floats climb,
                      Floats per_w) {
     const Floats zero = hn::Zero(kFloat), one = all(1.0f);
     // Length of path on which the clearance is used up, short of rounding
@@ -139,8 +141,8 @@ enum class Start { OnFacet, InTheAir, UnderWay };
 
 /// Takes every path `kSteps` rhombi further and leaves in `walkers`, side by side, those that are
 /// still under way.
-template <Start kStart, int kSteps>
-void walk_round(const Ground& ground, Walkers& walkers, RawHits& hits, Leavers& leavers) {
+template <Start kStart, int kSteps, class GroundT>
+void walk_round(const GroundT& ground, Walkers& walkers, RawHits& hits, Leavers& leavers) {
     const Floats zero = hn::Zero(kFloat), one = all(1.0f);
     std::size_t kept = 0;
     for (std::size_t k = 0; k < walkers.count; k += kLanes) {
@@ -188,7 +190,8 @@ void walk_round(const Ground& ground, Walkers& walkers, RawHits& hits, Leavers& 
             out = hn::Or(out, beyond);
             cell = only(hn::AndNot(beyond, valid), cell);
         }
-        const Floats slope = hn::Min(ground.horizon(only(alive, cell), sector), ground.steepest);
+        Floats slope = ground.steepest;
+        if (ground.leaps_pay) slope = hn::Min(ground.horizon(only(alive, cell), sector), slope);
         const Floats rise = hn::Mul(slope, level);
         out = hn::And(alive, hn::Or(out, hn::Gt(climb, rise)));
         if (!hn::AllFalse(kFloat, out)) {
@@ -209,10 +212,12 @@ void walk_round(const Ground& ground, Walkers& walkers, RawHits& hits, Leavers& 
 
         // Leap ahead; the edge landed at is tested like any other
         Mask going = hn::AndNot(out, alive);
-        const Mask leapt = leap(ground, s, going, rise, climb, per_w);
-        const Mask fell = hn::And(leapt, hn::Lt(s.above, zero));
-        pack_hits(fell, s.a, zero, s.a, s.w_a, s.z_a);
-        going = hn::AndNot(fell, going);
+        if (ground.leaps_pay) {
+            const Mask leapt = leap(ground, s, going, rise, climb, per_w);
+            const Mask fell = hn::And(leapt, hn::Lt(s.above, zero));
+            pack_hits(fell, s.a, zero, s.a, s.w_a, s.z_a);
+            going = hn::AndNot(fell, going);
+        }
 
         const Packer pack(going);
         pack(s.a, walkers.a, kept);
@@ -235,9 +240,9 @@ void walk_round(const Ground& ground, Walkers& walkers, RawHits& hits, Leavers& 
     walkers.count = kept;
 }
 
-void Walk(const WideGrid& grid, bool from_above, int most_rounds, Walkers& walkers, RawHits& hits,
-          Leavers& leavers) {
-    const Ground ground(grid);
+template <class GroundT>
+void walk_on(const GroundT& ground, bool from_above, int most_rounds, Walkers& walkers,
+             RawHits& hits, Leavers& leavers) {
     // The first look around comes early: most paths end near their facet
     if (from_above)
         walk_round<Start::InTheAir, kRhombiPerRound>(ground, walkers, hits, leavers);
@@ -245,6 +250,12 @@ void Walk(const WideGrid& grid, bool from_above, int most_rounds, Walkers& walke
         walk_round<Start::OnFacet, kRhombiPerRound / 2>(ground, walkers, hits, leavers);
     for (int round = 1; round < most_rounds && walkers.count > 0; ++round)
         walk_round<Start::UnderWay, kRhombiPerRound>(ground, walkers, hits, leavers);
+}
+void Walk(const WideGrid& grid, bool from_above, int most_rounds, Walkers& walkers, RawHits& hits,
+          Leavers& leavers) {
+    on_ground(grid, [&](const auto& ground) HWY_ATTR {
+        walk_on(ground, from_above, most_rounds, walkers, hits, leavers);
+    });
 }
 
 /// Fetches the directions of the paths that are out.
