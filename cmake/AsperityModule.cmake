@@ -44,8 +44,8 @@ function(asperity_module name)
 endfunction()
 
 # asperity_vectors(NAME): the module has kernels written with Highway, for AVX-512, AVX2, SSE4 and,
-# for all other processors, plain C++. With GCC before 12.3 Highway would take a narrower plain
-# fallback for a compiler bug; our tests would show it.
+# for all other processors, plain C++; with GCC before 12.3 Highway would take a narrower kind of
+# the latter, for a compiler bug that a test of ours would show (Measure.EveryInstructionSet...).
 function(asperity_vectors name)
     target_link_libraries(asperity_${name} PRIVATE hwy)
     target_compile_definitions(asperity_${name} PRIVATE

@@ -94,9 +94,9 @@ TEST(FlatMirror, ReflectsWhatFresnelSays) {
     schlick.f0 = {0.04, 0.5, 0.9};
     // 0.04 + 0.96 (1 - 1/2)^5 = 0.07; 0.5 + 0.5 / 32; 0.9 + 0.1 / 32 at 60 degrees
     const Measurement m = measured(flat, 60, 0, 8, schlick);
-    EXPECT_NEAR(m.albedo(m.layers[0], 0), 0.07, 1e-9);
-    EXPECT_NEAR(m.albedo(m.layers[0], 1), 0.515625, 1e-9);
-    EXPECT_NEAR(m.albedo(m.layers[0], 2), 0.903125, 1e-9);
+    EXPECT_NEAR(m.albedo(m.layers[0], 0), 0.07, kSingle);
+    EXPECT_NEAR(m.albedo(m.layers[0], 1), 0.515625, kSingle);
+    EXPECT_NEAR(m.albedo(m.layers[0], 2), 0.903125, kSingle);
 
     OpticsSettings glass;
     glass.fresnel = FresnelKind::Dielectric;
@@ -105,7 +105,7 @@ TEST(FlatMirror, ReflectsWhatFresnelSays) {
     const double brewster = degrees(std::atan(1.5));
     const double s_wave = std::pow(1.25 / 3.25, 2);
     const Measurement g = measured(flat, brewster, 0, 8, glass);
-    EXPECT_NEAR(g.albedo(g.layers[0], 0), 0.5 * s_wave, 1e-9);
+    EXPECT_NEAR(g.albedo(g.layers[0], 0), 0.5 * s_wave, kSingle);
 
     OpticsSettings metal;
     metal.fresnel = FresnelKind::Conductor;

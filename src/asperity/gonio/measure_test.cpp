@@ -3,8 +3,10 @@
 #include <asperity/core/error.h>
 #include <asperity/core/random.h>
 #include <asperity/gonio/measure.h>
+#include <asperity/surface/make_surface.h>
 
 #include <gtest/gtest.h>
+#include <hwy/highway.h>
 
 #include <chrono>
 #include <numeric>
@@ -281,6 +283,45 @@ TEST(Measure, RefusesSillySettings) {
             e.illumination.layers = 0;
         },
         "layers");
+}
+
+// The lanes of a vector are paths that know nothing of each other, and nothing is fused: SSE4,
+// AVX2, AVX-512 and plain C++ give the same bits.
+TEST(Measure, EveryInstructionSetGivesTheSameBits) {
+    for (const SurfaceKind kind : {SurfaceKind::Gaussian, SurfaceKind::Thesis}) {
+        for (const bool isotropic : {false, true}) {
+            SurfaceSettings settings;
+            settings.kind = kind;
+            settings.size = 160;
+            settings.alpha_x = settings.alpha_y = 0.8;
+            settings.roughness = 0.5;
+            asperity::Run run;
+            const Heightfield surface = make_surface(settings, run);
+            Experiment experiment;
+            experiment.optics.fresnel = FresnelKind::Conductor;
+            experiment.optics.material = "Cu";
+            experiment.illumination.theta_deg = {0, 40, 80};
+            experiment.illumination.isotropic = isotropic;
+            experiment.run.rays = 40000;
+            const Measurement expected = measure(surface, experiment, run);
+            int sets = 0;
+            for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+                hwy::SetSupportedTargetsForTest(target);
+                hwy::GetChosenTarget().Update(target);
+                const Measurement m = measure(surface, experiment, run);
+                ++sets;
+                for (std::size_t k = 0; k < m.layers.size(); ++k) {
+                    EXPECT_TRUE(m.layers[k].energy == expected.layers[k].energy)
+                        << hwy::TargetName(target);
+                    EXPECT_EQ(m.layers[k].absorbed, expected.layers[k].absorbed);
+                    EXPECT_EQ(m.layers[k].segments, expected.layers[k].segments);
+                }
+                hwy::SetSupportedTargetsForTest(0);
+            }
+            hwy::GetChosenTarget().DeInit();
+            EXPECT_GE(sets, 1);
+        }
+    }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/error.h>
 #include <asperity/optics/fresnel.h>
+#include <asperity/optics/fresnel_lanes.h>
 #include <asperity/optics/materials.h>
 
 #include <fmt/format.h>
@@ -229,10 +230,19 @@ void Fresnel::eval(double cos_theta, std::span<double> f) const {
 }
 
 void Fresnel::eval(std::span<const float> cos_theta, std::span<float* const> f) const {
-    std::vector<double> one(channels_.size());
-    for (std::size_t k = 0; k < cos_theta.size(); ++k) {
-        eval(double{cos_theta[k]}, one);
-        for (std::size_t c = 0; c < channels_.size(); ++c) f[c][k] = static_cast<float>(one[c]);
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+        const auto f0 = static_cast<float>(channels_[c].f0), n = static_cast<float>(channels_[c].n),
+                   k = static_cast<float>(channels_[c].k);
+        if (kind_ == FresnelKind::None)
+            std::fill_n(f[c], cos_theta.size(), 1.0f);
+        else if (kind_ == FresnelKind::Schlick)
+            schlick_lanes(cos_theta, f0, f[c]);
+        else if (k > 0)
+            conductor_lanes(cos_theta, n, k, f[c]);
+        else if (n == 1)
+            std::fill_n(f[c], cos_theta.size(), 0.0f);  // no border at all, also along it
+        else
+            dielectric_lanes(cos_theta, n, f[c]);
     }
 }
 

@@ -221,5 +221,38 @@ TEST(FresnelTest, ErrorsNameTheSetting) {
     }
 }
 
+TEST(FresnelTest, ManyAnglesAtOnceMeanTheSame) {
+    // 1003 angles: not a multiple of any number of lanes
+    std::vector<float> cosines;
+    for (int n = 0; n < 1003; ++n) cosines.push_back(static_cast<float>(n) / 1002);
+    std::vector<OpticsSettings> all(5);
+    all[1].fresnel = FresnelKind::Schlick;
+    all[1].f0 = {0.04, 0.9};
+    all[2].fresnel = FresnelKind::Dielectric;
+    all[2].ior = {1.5, 1 / 1.5, 1};
+    all[3].fresnel = FresnelKind::Conductor;
+    all[3].material = "Au";
+    all[4].fresnel = FresnelKind::Conductor;
+    all[4].ior = {3, 0.05, 1.5};
+    all[4].k = {1, 4, 0};
+    for (const OpticsSettings& settings : all) {
+        const Fresnel fresnel(settings);
+        const auto channels = static_cast<std::size_t>(fresnel.channels());
+        std::vector<std::vector<float>> many(channels, std::vector<float>(cosines.size()));
+        std::vector<float*> out;
+        for (std::vector<float>& f : many) out.push_back(f.data());
+        fresnel.eval(cosines, out);
+        std::vector<double> one(channels);
+        for (std::size_t n = 0; n < cosines.size(); ++n) {
+            fresnel.eval(double{cosines[n]}, one);
+            // Near the critical angle of total reflection the cosine's own rounding counts most
+            for (std::size_t c = 0; c < channels; ++c) {
+                const bool total = settings.fresnel == FresnelKind::Dielectric && c == 1;
+                EXPECT_NEAR(many[c][n], one[c], total ? 2e-5 : 2e-6) << cosines[n];
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace asperity

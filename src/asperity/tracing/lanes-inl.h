@@ -64,6 +64,14 @@ HWY_INLINE Ints only(Mask m, Ints x) {
 HWY_INLINE Mask negative(Floats x) {
     return hn::MaskFromVec(hn::BitCast(kFloat, hn::BroadcastSignBit(hn::BitCast(kInt, x))));
 }
+/// By the sign bit alone, also of -0 and of what is not a number.
+HWY_INLINE Floats select_by_sign(Floats sign, Floats if_set, Floats if_clear) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
+    return hn::IfNegativeThenElse(sign, if_set, if_clear);
+#else
+    return select(negative(sign), if_set, if_clear);
+#endif
+}
 /// The lanes k, k + 1, ... below count.
 HWY_INLINE Mask first_lanes(std::size_t k, std::size_t count) {
     return hn::RebindMask(kFloat, hn::Lt(hn::Iota(kInt, static_cast<std::int32_t>(k)),

@@ -35,7 +35,7 @@ HWY_INLINE void find_first_edges(const LaunchLine::Round& round, const float* at
                 hn::Sub(hn::Sub(hn::Mul(hn::LoadU(kFloat, left + k * kLanes), w_right),
                                 hn::Mul(hn::LoadU(kFloat, right + k * kLanes), w_left)),
                         limit);
-            first[k] = hn::IfNegativeThenElse(above, number, first[k]);
+            first[k] = select_by_sign(above, number, first[k]);
         }
     }
 }

@@ -1,96 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <asperity/core/directions.h>
-#include <asperity/core/random.h>
-#include <asperity/surface/make_surface.h>
-#include <asperity/tracing/wide_tracer.h>
+#include <asperity/tracing/tracers_together.h>
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
-
-#include <cmath>
-#include <vector>
 
 namespace asperity {
 namespace {
-
-/// What two tracers made of the same rays.
-struct Agreement {
-    int rays = 0;
-    int other_end = 0;    ///< one hit, the other left
-    int other_facet = 0;  ///< both hit, but not the same facet
-    double furthest = 0;  ///< largest distance of hits on the same facet [cells]
-};
-
-Vec3 position(const Heightfield& s, const Ray& r) {
-    return {(r.i + r.u) * s.dx, (r.j + r.v) * s.dy, r.z};
-}
-
-void compare(const Heightfield& s, const std::vector<Ray>& a, const std::vector<RayEnd>& a_ends,
-             const std::vector<Ray>& b, const std::vector<RayEnd>& b_ends, Agreement& sum) {
-    for (std::size_t k = 0; k < a.size(); ++k) {
-        ++sum.rays;
-        if (a_ends[k] != b_ends[k]) {
-            ++sum.other_end;
-        } else if (a_ends[k] == RayEnd::Hit) {
-            if (a[k].i != b[k].i || a[k].j != b[k].j || a[k].facet != b[k].facet)
-                ++sum.other_facet;
-            else
-                sum.furthest =
-                    std::max(sum.furthest, length(position(s, a[k]) - position(s, b[k])));
-        }
-    }
-}
-
-/// Rays from above, steep to grazing, then three reflections; both tracers get the plain one's
-/// rays each time.
-Agreement follow_both(const Heightfield& s, int rays, std::uint64_t seed) {
-    const Tracer plain(s);
-    const WideTracer wide(s, 1);
-    const CounterRandom random(seed, 0);
-    std::vector<Ray> start;
-    for (int k = 0; k < rays; ++k) {
-        const auto p = random.uniform2(static_cast<std::uint64_t>(k), 0),
-                   q = random.uniform2(static_cast<std::uint64_t>(k), 1);
-        Ray ray;
-        ray.i = static_cast<int>(p[0] * s.cells_x());
-        ray.j = static_cast<int>(p[1] * s.cells_y());
-        ray.u = p[0] * s.cells_x() - ray.i;
-        ray.v = p[1] * s.cells_y() - ray.j;
-        ray.z = double{plain.max_height()};
-        ray.direction = -from_spherical(q[0] * radians(88), 2 * kPi * q[1]);
-        // Some along the axes and diagonals, some through vertices, some straight down
-        if (k % 16 == 0)
-            ray.direction = -from_spherical(q[0] * radians(88), std::floor(8 * q[1]) * kPi / 4);
-        if (k % 16 == 1) ray.u = ray.v = 0;
-        if (k % 64 == 2) ray.direction = {0, 0, -1};
-        start.push_back(ray);
-    }
-    Agreement sum;
-    for (int bounce = 0; bounce < 4 && !start.empty(); ++bounce) {
-        std::vector<Ray> a = start, b = start;
-        std::vector<RayEnd> a_ends(a.size()), b_ends(b.size());
-        plain.trace(a, a_ends);
-        wide.trace(b, b_ends);
-        compare(s, a, a_ends, b, b_ends, sum);
-        start.clear();
-        for (std::size_t k = 0; k < a.size(); ++k)
-            if (a_ends[k] == RayEnd::Hit) {
-                a[k].direction = normalize(-reflect(a[k].direction, plain.normal(a[k])));
-                start.push_back(a[k]);
-            }
-    }
-    return sum;
-}
-
-Heightfield surface_of(SurfaceKind kind, double strength, int size) {
-    SurfaceSettings settings;
-    settings.kind = kind;
-    settings.size = size;
-    settings.roughness = strength;
-    settings.alpha_x = settings.alpha_y = strength;
-    asperity::Run run;
-    return make_surface(settings, run);
-}
 
 struct Case {
     const char* name;
@@ -111,18 +25,74 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, WideTracerOn,
 TEST_P(WideTracerOn, AgreesWithThePlainTracerRayByRay) {
     for (const Diagonal diagonal : {Diagonal::Anti, Diagonal::Main})
         for (const Boundary boundary : {Boundary::Periodic, Boundary::Finite}) {
-            Heightfield s = surface_of(GetParam().kind, GetParam().strength, 128);
+            Heightfield s = test::surface_of(GetParam().kind, GetParam().strength, 128);
             s.diagonal = diagonal;
             s.boundary = boundary;
             s.dx = 1.25;
-            const Agreement a = follow_both(s, 8000, 3);
-            printf("%s %d %d: rays %d end %d facet %d furthest %g\n", GetParam().name,
-                   static_cast<int>(diagonal), static_cast<int>(boundary), a.rays, a.other_end,
-                   a.other_facet, a.furthest);
-            EXPECT_LE(a.other_end, 3);
-            EXPECT_LE(a.other_facet, 3);
+            const test::Agreement a = test::follow_both(s, 8000, 3);
+            EXPECT_LE(a.other_end, 1);
+            EXPECT_LE(a.other_facet, 1);
             EXPECT_LT(a.furthest, 1e-2);
         }
+}
+
+/// Rays side by side along a line, against the plain tracer's one by one.
+void follow_row(const Heightfield& s, const Vec3& d, double u, double v, int i, int j) {
+    const Tracer plain(s);
+    const WideTracer wide(s, 1);
+    constexpr int kCount = 100;
+    Wave wave;
+    wide.clear(wave);
+    if (d.x == 0 && d.y == 0) {
+        wide.launch_down(u, v, i, j, kCount, 0, wave);
+    } else {
+        LaunchLine line;
+        line.start(wide.heights(), u, v, double{wide.max_height()}, d);
+        wide.launch(line, i, j, kCount, 0, wave);
+    }
+    wide.land(wave);
+    ASSERT_EQ(wave.points.count, kCount);
+    int differing = 0;
+    for (std::size_t k = 0; k < kCount; ++k) {
+        Ray ray;
+        ray.i = (i + wave.points.ray[k]) % s.nx;
+        ray.j = j;
+        ray.u = u;
+        ray.v = v;
+        ray.z = double{plain.max_height()};
+        ray.direction = d;
+        RayEnd end;
+        plain.trace({&ray, 1}, {&end, 1});
+        ASSERT_EQ(end, RayEnd::Hit);
+        // Corners are counted from the middle of the tile
+        const bool upper = ray.facet == static_cast<int>(Triangle::Upper);
+        const auto tile = [](int a, int n) { return (a % n + n) % n; };
+        const int x = vertex_x(wave.points.corner[k]) + (s.nx / 2 & ~3) - (upper ? 1 : 0);
+        const int y = vertex_y(wave.points.corner[k]) + (s.ny / 2 & ~3) - (upper ? 1 : 0);
+        const bool same =
+            tile(x, s.nx) == ray.i && tile(y, s.ny) == ray.j && (wave.points.side[k] < 0) == upper;
+        differing += same ? 0 : 1;
+        if (same && upper) {
+            EXPECT_NEAR(wave.points.u[k], 1 - ray.u, 1e-3);
+            EXPECT_NEAR(wave.points.v[k], 1 - ray.v, 1e-3);
+        } else if (same) {
+            EXPECT_NEAR(wave.points.u[k], ray.u, 1e-3);
+            EXPECT_NEAR(wave.points.v[k], ray.v, 1e-3);
+        }
+    }
+    EXPECT_LE(differing, 1);
+}
+
+TEST_P(WideTracerOn, LaunchesRowsAsThePlainTracerRayByRay) {
+    const Heightfield s = test::surface_of(GetParam().kind, GetParam().strength, 128);
+    const CounterRandom random(5, 0);
+    for (std::uint64_t n = 0; n < 40; ++n) {
+        const auto p = random.uniform2(n, 0), q = random.uniform2(n, 1), r = random.uniform2(n, 2);
+        // Every fourth along an axis or a diagonal, every eighth straight down
+        const double phi = n % 4 == 0 ? std::floor(8 * q[1]) * kPi / 4 : 2 * kPi * q[1];
+        const Vec3 d = n % 8 == 1 ? Vec3{0, 0, -1} : -from_spherical(q[0] * radians(88), phi);
+        follow_row(s, d, p[0], p[1], static_cast<int>(128 * r[0]), static_cast<int>(128 * r[1]));
+    }
 }
 
 }  // namespace

@@ -62,12 +62,11 @@ struct FirstHit {
     Ints a;
 
     HWY_INLINE void note(Floats above, Ints at) {
-        a = hn::BitCast(
-            kInt, hn::IfNegativeThenElse(hit, hn::BitCast(kFloat, a), hn::BitCast(kFloat, at)));
+        a = hn::BitCast(kInt, select_by_sign(hit, hn::BitCast(kFloat, a), hn::BitCast(kFloat, at)));
         hit = hn::Or(hit, above);
     }
     HWY_INLINE void note_second(Floats above, Ints at) {
-        in_second = hn::IfNegativeThenElse(hit, in_second, above);
+        in_second = select_by_sign(hit, in_second, above);
         note(above, at);
     }
 };

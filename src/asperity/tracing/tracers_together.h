@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// For tests: the plain tracer and the wide one follow the same rays.
+#pragma once
+
+#include <asperity/core/directions.h>
+#include <asperity/core/random.h>
+#include <asperity/surface/make_surface.h>
+#include <asperity/tracing/wide_tracer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace asperity::test {
+
+/// What two tracers made of the same rays.
+struct Agreement {
+    int rays = 0;
+    int other_end = 0;    ///< one hit, the other left
+    int other_facet = 0;  ///< both hit, but not the same facet
+    double furthest = 0;  ///< largest distance of hits on the same facet [cells]
+};
+
+inline Vec3 position_of(const Heightfield& s, const Ray& r) {
+    return {(r.i + r.u) * s.dx, (r.j + r.v) * s.dy, r.z};
+}
+
+inline void compare(const Heightfield& s, const std::vector<Ray>& a,
+                    const std::vector<RayEnd>& a_ends, const std::vector<Ray>& b,
+                    const std::vector<RayEnd>& b_ends, Agreement& sum) {
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        ++sum.rays;
+        if (a_ends[k] != b_ends[k]) {
+            ++sum.other_end;
+        } else if (a_ends[k] == RayEnd::Hit) {
+            if (a[k].i != b[k].i || a[k].j != b[k].j || a[k].facet != b[k].facet)
+                ++sum.other_facet;
+            else
+                sum.furthest =
+                    std::max(sum.furthest, length(position_of(s, a[k]) - position_of(s, b[k])));
+        }
+    }
+}
+
+/// Rays from above, steep to grazing, then three reflections; both tracers get the plain one's
+/// rays each time.
+inline Agreement follow_both(const Heightfield& s, int rays, std::uint64_t seed) {
+    const Tracer plain(s);
+    const WideTracer wide(s, 1);
+    const CounterRandom random(seed, 0);
+    std::vector<Ray> start;
+    for (int k = 0; k < rays; ++k) {
+        const auto p = random.uniform2(static_cast<std::uint64_t>(k), 0),
+                   q = random.uniform2(static_cast<std::uint64_t>(k), 1);
+        Ray ray;
+        ray.i = static_cast<int>(p[0] * s.cells_x());
+        ray.j = static_cast<int>(p[1] * s.cells_y());
+        ray.u = p[0] * s.cells_x() - ray.i;
+        ray.v = p[1] * s.cells_y() - ray.j;
+        ray.z = double{plain.max_height()};
+        ray.direction = -from_spherical(q[0] * radians(88), 2 * kPi * q[1]);
+        // Some along the axes and diagonals, some through vertices, some straight down
+        if (k % 16 == 0)
+            ray.direction = -from_spherical(q[0] * radians(88), std::floor(8 * q[1]) * kPi / 4);
+        if (k % 16 == 1) ray.u = ray.v = 0;
+        if (k % 64 == 2) ray.direction = {0, 0, -1};
+        start.push_back(ray);
+    }
+    Agreement sum;
+    for (int bounce = 0; bounce < 4 && !start.empty(); ++bounce) {
+        std::vector<Ray> a = start, b = start;
+        std::vector<RayEnd> a_ends(a.size()), b_ends(b.size());
+        plain.trace(a, a_ends);
+        wide.trace(b, b_ends);
+        compare(s, a, a_ends, b, b_ends, sum);
+        start.clear();
+        for (std::size_t k = 0; k < a.size(); ++k)
+            if (a_ends[k] == RayEnd::Hit) {
+                a[k].direction = normalize(-reflect(a[k].direction, plain.normal(a[k])));
+                start.push_back(a[k]);
+            }
+    }
+    return sum;
+}
+
+inline Heightfield surface_of(SurfaceKind kind, double strength, int size) {
+    SurfaceSettings settings;
+    settings.kind = kind;
+    settings.size = size;
+    settings.roughness = strength;
+    settings.alpha_x = settings.alpha_y = strength;
+    asperity::Run run;
+    return make_surface(settings, run);
+}
+
+}  // namespace asperity::test
