@@ -34,7 +34,7 @@ struct Hemisphere {
     int unreachable = 0;                      ///< directions with f > 0 that are never drawn
 };
 
-Hemisphere integrate(const Brdf& a, const Brdf& b, Vec3 wi, int rows = 300) {
+Hemisphere integrate(const Brdf& a, const Brdf& b, Vec3 wi, int rows = 200) {
     const std::size_t channels = static_cast<std::size_t>(a.channels());
     std::array<double, 3> f{}, g{};
     Hemisphere sums;
