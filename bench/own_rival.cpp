@@ -15,7 +15,7 @@ namespace asperity::bench {
 namespace {
 
 /// As in measure().
-constexpr std::uint64_t kBatches = 32, kLargestBatch = 1 << 18;
+constexpr std::uint64_t kBatches = 16, kLargestBatch = 1 << 20;
 
 DetectorSettings detector_settings() {
     DetectorSettings settings;

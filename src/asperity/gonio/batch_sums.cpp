@@ -133,14 +133,16 @@ void LayerSums::add(const BatchSums& b) {
     }
     for (const std::uint32_t cell : b.touched_) {
         const std::uint64_t* sums = &b.energy_[cell * orders_ * channels_];
+        std::uint64_t* mine = &energy_[cell * orders_ * channels_];
+        Spread* spread = &cell_spread_[cell * channels_];
         for (std::size_t c = 0; c < channels_; ++c) {
             std::uint64_t total = 0;
             for (std::size_t order = 0; order < orders_; ++order) {
                 const std::uint64_t energy = sums[order * channels_ + c];
-                energy_[(order * channels_ + c) * cells_ + cell] += energy;
+                mine[order * channels_ + c] += energy;
                 total += energy;
             }
-            if (total > 0) cell_spread_[c * cells_ + cell].add(scaled(total, b.rays));
+            if (total > 0) spread[c].add(scaled(total, b.rays));
         }
     }
 }
@@ -168,8 +170,8 @@ LayerSums::Errors LayerSums::relative_errors() const {
         // The strongest cells that together carry 90 % of the energy
         std::vector<const Spread*> cells;
         for (std::size_t k = 0; k < cells_; ++k)
-            if (cell_spread_[c * cells_ + k].sum > 0)
-                cells.push_back(&cell_spread_[c * cells_ + k]);
+            if (cell_spread_[k * channels_ + c].sum > 0)
+                cells.push_back(&cell_spread_[k * channels_ + c]);
         std::sort(cells.begin(), cells.end(),
                   [](const Spread* a, const Spread* b) { return a->sum > b->sum; });
         const double enough = 0.9 * static_cast<double>(albedo_spread_[c].sum);
@@ -188,17 +190,21 @@ void LayerSums::write(Layer& layer) const {
     layer.reflections = reflections_;
     layer.stuck = stuck_;
     layer.batches = batches_;
-    layer.energy = energy_;
+    layer.energy.resize(energy_.size());
+    for (std::size_t cell = 0; cell < cells_; ++cell)
+        for (std::size_t k = 0; k < orders_ * channels_; ++k)
+            layer.energy[k * cells_ + cell] = energy_[cell * orders_ * channels_ + k];
     layer.absorbed = absorbed_;
     layer.truncated = truncated_;
     layer.edge = edge_;
     layer.escaped_by_bounce = escaped_by_bounce_;
     layer.escaped.assign(channels_, 0);
-    for (std::size_t k = 0; k < energy_.size(); ++k)
-        layer.escaped[k / cells_ % channels_] += energy_[k];
+    for (std::size_t k = 0; k < energy_.size(); ++k) layer.escaped[k % channels_] += energy_[k];
 
-    for (const Spread& s : cell_spread_)
-        layer.stderr_energy.push_back(static_cast<float>(standard_error(s)));
+    layer.stderr_energy.resize(cell_spread_.size());
+    for (std::size_t k = 0; k < cell_spread_.size(); ++k)
+        layer.stderr_energy[k % channels_ * cells_ + k / channels_] =
+            static_cast<float>(standard_error(cell_spread_[k]));
     for (const Spread& s : albedo_spread_) layer.stderr_albedo.push_back(standard_error(s));
     for (const Spread& s : bounce_spread_)
         layer.stderr_albedo_by_bounce.push_back(standard_error(s));

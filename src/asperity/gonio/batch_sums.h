@@ -86,9 +86,9 @@ class LayerSums {
     std::uint64_t largest_batch_;
     int batches_ = 0;
     std::uint64_t rays_ = 0, segments_ = 0, reflections_ = 0, stuck_ = 0;
-    std::vector<std::uint64_t> energy_;  ///< as Layer::energy
+    std::vector<std::uint64_t> energy_;  ///< as in BatchSums
     std::vector<std::uint64_t> escaped_by_bounce_, absorbed_, truncated_, edge_;
-    std::vector<Spread> cell_spread_;    ///< [channel * cells + cell]
+    std::vector<Spread> cell_spread_;    ///< [cell * channels + channel]
     std::vector<Spread> bounce_spread_;  ///< [channel * bounces + order]
     std::vector<Spread> albedo_spread_;  ///< per channel
 };

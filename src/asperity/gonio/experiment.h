@@ -48,7 +48,7 @@ struct RunSettings {
     std::uint64_t max_rays = 0;  ///< per layer, for `until`; 0: 256 times the first estimate
     int bounces = 16;            ///< Ray Bounces B: reflections a ray may make, >= 1
     LaunchPattern launch = LaunchPattern::LowDiscrepancy;
-    int batches = 32;  ///< independent batches a layer, >= 2, from which errors are estimated
+    int batches = 16;  ///< independent batches a layer, >= 2, from which errors are estimated
     std::uint64_t seed = 1;
 };
 

@@ -42,7 +42,7 @@ class Follower {
     void reflect(const Scene& scene, bool parallel);
     void settle(const Scene& scene, int reflections, BatchSums& sums);
 
-    Wave wave_;
+    PathWave wave_;
     LaunchLine line_;
     PerPath<float> cosine_, cos_phi_, sin_phi_;
     PerPath<std::int32_t> cells_, paths_;

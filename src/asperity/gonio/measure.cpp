@@ -21,7 +21,7 @@ namespace asperity {
 namespace {
 
 /// A batch larger than this is split: a stopped run loses the batches under way.
-constexpr std::uint64_t kLargestBatch = 1 << 18;
+constexpr std::uint64_t kLargestBatch = 1 << 20;
 
 /// How the rays of a layer are divided into independent batches.
 struct BatchPlan {

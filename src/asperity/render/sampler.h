@@ -22,7 +22,7 @@ class PixelSampler {
 
   private:
     std::array<std::uint32_t, 4> key_;  ///< of the pixel, from CounterRandom
-    std::uint32_t sample_;  ///< its bits in reverse order
+    std::uint32_t sample_;              ///< its bits in reverse order
     std::uint32_t dimension_ = 0;
 };
 

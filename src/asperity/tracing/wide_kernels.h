@@ -17,7 +17,7 @@ struct RawHits {
 };
 
 /// The work of a wave between two facets.
-struct WaveWork {
+struct PathWaveWork {
     Walkers walkers;
     RawHits raw;
     TriangleHits hits;

@@ -17,10 +17,10 @@ constexpr float kAlmostStraight = 1e-12f;
 
 }  // namespace
 
-Wave::Wave() : work_(std::make_unique<WaveWork>()) {}
-Wave::~Wave() = default;
-Wave::Wave(Wave&&) noexcept = default;
-Wave& Wave::operator=(Wave&&) noexcept = default;
+PathWave::PathWave() : work_(std::make_unique<PathWaveWork>()) {}
+PathWave::~PathWave() = default;
+PathWave::PathWave(PathWave&&) noexcept = default;
+PathWave& PathWave::operator=(PathWave&&) noexcept = default;
 
 WideTracer::WideTracer(const Heightfield& surface, int threads)
     : surface_cells_x_(surface.cells_x()),
@@ -36,12 +36,13 @@ std::size_t WideTracer::memory_bytes() const {
     return heights_.memory_bytes() + horizon_.memory_bytes() + (tops_ ? tops_->memory_bytes() : 0);
 }
 
-void WideTracer::clear(Wave& wave) const {
+void WideTracer::clear(PathWave& wave) const {
     wave.points.count = wave.escapes.count = wave.edge_count = wave.stuck_count = 0;
     wave.work_->hits.count = 0;
 }
 
-void WideTracer::launch(LaunchLine& line, int i, int j, int count, int first, Wave& wave) const {
+void WideTracer::launch(LaunchLine& line, int i, int j, int count, int first,
+                        PathWave& wave) const {
     LaunchHits& launched = wave.work_->launched;
     TriangleHits& hits = wave.work_->hits;
     launched.count = 0;
@@ -51,16 +52,16 @@ void WideTracer::launch(LaunchLine& line, int i, int j, int count, int first, Wa
 }
 
 void WideTracer::launch_down(double u, double v, int i, int j, int count, int first,
-                             Wave& wave) const {
+                             PathWave& wave) const {
     launch_straight_down(grid_, static_cast<float>(u), static_cast<float>(v), i, j, count, first,
                          wave.points);
 }
 
-void WideTracer::land(Wave& wave) const {
+void WideTracer::land(PathWave& wave) const {
     if (wave.work_->hits.count > 0) asperity::land(grid_, wave.work_->hits, wave.points);
 }
 
-void WideTracer::place(const Ray& ray, std::size_t k, Wave& wave) const {
+void WideTracer::place(const Ray& ray, std::size_t k, PathWave& wave) const {
     const bool upper = ray.facet >= 0        ? ray.facet == static_cast<int>(Triangle::Upper)
                        : heights_.mirrored() ? ray.u <= ray.v
                                              : ray.u + ray.v >= 1;
@@ -90,7 +91,7 @@ void WideTracer::set_direction(Directions& to, std::size_t k, Vec3 d, std::int32
     to.path[k] = path;
 }
 
-void WideTracer::enter(std::span<const Ray> rays, Wave& wave) const {
+void WideTracer::enter(std::span<const Ray> rays, PathWave& wave) const {
     clear(wave);
     for (std::size_t k = 0; k < rays.size(); ++k) {
         set_direction(wave.arriving(), k, rays[k].direction, static_cast<std::int32_t>(k));
@@ -101,7 +102,7 @@ void WideTracer::enter(std::span<const Ray> rays, Wave& wave) const {
 }
 
 /// Moves paths from over wave.points to their first facets.
-void WideTracer::fall(Wave& wave) const {
+void WideTracer::fall(PathWave& wave) const {
     // Straight down there is no way to go: they are there
     Directions& d = wave.arriving();
     const std::size_t count = wave.points.count;
@@ -114,7 +115,7 @@ void WideTracer::fall(Wave& wave) const {
     walk(wave, true);
 }
 
-void WideTracer::leave(Wave& wave) const {
+void WideTracer::leave(PathWave& wave) const {
     wave.escapes.count = wave.edge_count = wave.stuck_count = 0;
     wave.turn();
     part_free(grid_, wave.points, wave.arriving(), wave.escapes);
@@ -122,9 +123,9 @@ void WideTracer::leave(Wave& wave) const {
     walk(wave, false);
 }
 
-void WideTracer::walk(Wave& wave, bool from_above) const {
+void WideTracer::walk(PathWave& wave, bool from_above) const {
     constexpr int kMostRounds = Tracer::kMaxCrossings / (2 * kRhombiPerRound);
-    WaveWork& work = *wave.work_;
+    PathWaveWork& work = *wave.work_;
     work.raw.count = work.leavers.count = work.hits.count = 0;
     asperity::walk(grid_, from_above, kMostRounds, work.walkers, work.raw, work.leavers);
     for (std::size_t k = 0; k < work.walkers.count; ++k)
@@ -136,7 +137,7 @@ void WideTracer::walk(Wave& wave, bool from_above) const {
     asperity::land(grid_, work.hits, wave.points);
 }
 
-void WideTracer::settle_edges(Wave& wave) const {
+void WideTracer::settle_edges(PathWave& wave) const {
     // A path over a finite patch is out when it passes the side above the highest point
     const auto until_side = [](double at, double direction, double first, double last) {
         return direction > 0   ? (last - at) / direction
@@ -166,7 +167,7 @@ void WideTracer::settle_edges(Wave& wave) const {
 }
 
 void WideTracer::trace(std::span<Ray> rays, std::span<RayEnd> ends) const {
-    Wave wave;
+    PathWave wave;
     for (std::size_t first = 0; first < rays.size(); first += kWave) {
         const std::size_t count = std::min(kWave, rays.size() - first);
         std::vector<std::size_t> free, standing;
@@ -184,7 +185,7 @@ void WideTracer::trace(std::span<Ray> rays, std::span<RayEnd> ends) const {
 }
 
 void WideTracer::trace_some(std::span<const std::size_t> chosen, bool on_facet, std::span<Ray> rays,
-                            std::span<RayEnd> ends, Wave& wave) const {
+                            std::span<RayEnd> ends, PathWave& wave) const {
     clear(wave);
     for (std::size_t k = 0; k < chosen.size(); ++k) {
         const Ray& ray = rays[chosen[k]];

@@ -16,16 +16,16 @@
 
 namespace asperity {
 
-struct WaveWork;
+struct PathWaveWork;
 
 /// The paths of one thread, at most kWave, on their way from facet to facet. Filled by WideTracer;
 /// directions are in its frame: x is mirrored if WideTracer::mirrored().
-class Wave {
+class PathWave {
   public:
-    Wave();
-    ~Wave();
-    Wave(Wave&&) noexcept;
-    Wave& operator=(Wave&&) noexcept;
+    PathWave();
+    ~PathWave();
+    PathWave(PathWave&&) noexcept;
+    PathWave& operator=(PathWave&&) noexcept;
 
     /// The directions the paths at `points` came with, and after a reflection go on with.
     Directions& arriving() { return directions_[turn_]; }
@@ -43,7 +43,7 @@ class Wave {
 
     Directions directions_[2];
     int turn_ = 0;
-    std::unique_ptr<WaveWork> work_;
+    std::unique_ptr<PathWaveWork> work_;
 };
 
 /// Follows many paths at once, in the lanes of the widest vectors the processor has. Same answers
@@ -68,34 +68,34 @@ class WideTracer {
     std::size_t memory_bytes() const;
 
     /// Forgets all paths of the wave.
-    void clear(Wave& wave) const;
+    void clear(PathWave& wave) const;
     /// Launches `count` rays along the line from the cells (i, j), (i + 1, j) ... and moves them to
     /// their first facets: wave.points, ray `first + k` for the k-th. Periodic surfaces only; i, j
     /// inside; the wave holds at most kWave rays.
-    void launch(LaunchLine& line, int i, int j, int count, int first, Wave& wave) const;
+    void launch(LaunchLine& line, int i, int j, int count, int first, PathWave& wave) const;
     /// The same for rays straight down onto the place (u, v) of the cells.
-    void launch_down(double u, double v, int i, int j, int count, int first, Wave& wave) const;
+    void launch_down(double u, double v, int i, int j, int count, int first, PathWave& wave) const;
     /// Finishes a launch: the rays stand at wave.points.
-    void land(Wave& wave) const;
+    void land(PathWave& wave) const;
     /// Moves rays from free space, at most kWave, to their first facets; path k is ray k.
-    void enter(std::span<const Ray> rays, Wave& wave) const;
+    void enter(std::span<const Ray> rays, PathWave& wave) const;
     /// Moves the paths at wave.points along wave.leaving() to their next facets, wave.points again,
     /// or out; these directions become the arriving ones. The lists of those that ended are made
     /// anew.
-    void leave(Wave& wave) const;
+    void leave(PathWave& wave) const;
 
     /// Advances each ray to its next facet or out, as Tracer::trace; for tests and single rays.
     void trace(std::span<Ray> rays, std::span<RayEnd> ends) const;
 
   private:
-    void fall(Wave& wave) const;
-    void walk(Wave& wave, bool from_above) const;
-    void settle_edges(Wave& wave) const;
+    void fall(PathWave& wave) const;
+    void walk(PathWave& wave, bool from_above) const;
+    void settle_edges(PathWave& wave) const;
     void set_direction(Directions& to, std::size_t k, Vec3 d, std::int32_t path) const;
-    void place(const Ray& ray, std::size_t k, Wave& wave) const;
+    void place(const Ray& ray, std::size_t k, PathWave& wave) const;
     void stand(const FacetPoints& points, std::size_t k, Ray& ray) const;
     void trace_some(std::span<const std::size_t> chosen, bool on_facet, std::span<Ray> rays,
-                    std::span<RayEnd> ends, Wave& wave) const;
+                    std::span<RayEnd> ends, PathWave& wave) const;
 
     const int surface_cells_x_, surface_cells_y_;
     const PaddedHeights heights_;

@@ -41,7 +41,7 @@ void follow_row(const Heightfield& s, const Vec3& d, double u, double v, int i, 
     const Tracer plain(s);
     const WideTracer wide(s, 1);
     constexpr int kCount = 100;
-    Wave wave;
+    PathWave wave;
     wide.clear(wave);
     if (d.x == 0 && d.y == 0) {
         wide.launch_down(u, v, i, j, kCount, 0, wave);
