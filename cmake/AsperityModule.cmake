@@ -43,13 +43,19 @@ function(asperity_module name)
     endif()
 endfunction()
 
-# asperity_vectors(NAME): the module has kernels written with Highway, for AVX-512, AVX2, SSE4 and,
-# for all other processors, plain C++; with GCC before 12.3 Highway would take a narrower kind of
-# the latter, for a compiler bug that a test of ours would show (Measure.EveryInstructionSet...).
+# asperity_vectors(NAME KERNELS file ...): these files of the module are kernels written with
+# Highway, for AVX-512, AVX2, SSE4 and, for all other processors, plain C++; with GCC before 12.3
+# Highway would take a narrower kind of the latter, for a compiler bug that a test of ours would show
+# (Measure.EveryInstructionSet...). The sanitizers leave the kernels out: instrumented, the vector
+# functions take GCC many minutes to compile. Valgrind looks after them, CONTRIBUTING.md.
 function(asperity_vectors name)
+    cmake_parse_arguments(V "" "" "KERNELS" ${ARGN})
     target_link_libraries(asperity_${name} PRIVATE hwy)
     target_compile_definitions(asperity_${name} PRIVATE
         HWY_BROKEN_EMU128=0 "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL)")
+    if(ASPERITY_SANITIZE)
+        set_source_files_properties(${V_KERNELS} PROPERTIES COMPILE_OPTIONS "-fno-sanitize=all;-O2")
+    endif()
 endfunction()
 
 # asperity_test(NAME LABEL label SOURCES ... LIBS ...): a GoogleTest binary and its ctest entry.
