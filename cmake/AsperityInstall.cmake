@@ -6,8 +6,7 @@ include(CMakePackageConfigHelpers)
 set(ASPERITY_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/Asperity)
 
 install(DIRECTORY src/asperity DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-    FILES_MATCHING PATTERN "*.h" PATTERN "*test_*.h" EXCLUDE PATTERN "*-inl.h" EXCLUDE
-    PATTERN "tracers_together.h" EXCLUDE)
+    FILES_MATCHING PATTERN "*.h" PATTERN "*test_*.h" EXCLUDE PATTERN "*-inl.h" EXCLUDE)
 
 install(TARGETS asperity EXPORT asperity_targets)
 install(EXPORT asperity_targets NAMESPACE asperity:: FILE AsperityTargets.cmake

@@ -26,7 +26,7 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX})
 # A library is known by its headers: none of ours may be missing, nothing else may slip in.
 file(GLOB_RECURSE installed RELATIVE ${PREFIX}/include ${PREFIX}/include/*)
 file(GLOB_RECURSE written RELATIVE ${SOURCE}/src ${SOURCE}/src/asperity/*.h)
-list(FILTER written EXCLUDE REGEX "test_[^/]*$")  # helpers of tests
+list(FILTER written EXCLUDE REGEX "(test_[^/]*|-inl.h)$")  # helpers of tests and of kernels
 list(SORT installed)
 list(SORT written)
 if(NOT installed STREQUAL written)

@@ -2,7 +2,7 @@
 //
 // The wide tracer against its readable twin, a million rays for every kind of surface: steep and
 // grazing, along the axes, through vertices, reflected. docs/performance.md, "Ties".
-#include <asperity/tracing/tracers_together.h>
+#include <asperity/tracing/test_tracers.h>
 
 #include <gtest/gtest.h>
 

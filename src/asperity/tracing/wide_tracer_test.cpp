@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <asperity/tracing/tracers_together.h>
+#include <asperity/tracing/test_tracers.h>
 
 #include <gtest/gtest.h>
 
