@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -66,11 +65,10 @@ class Gonioreflectometer {
 
     Measurement measure() {
         Measurement m = describe();
-        const auto begin = std::chrono::steady_clock::now();
         const std::vector<Incidence> light = incidences(experiment_.illumination);
         rays_ahead_ = plan_.rays * light.size();
         run_.begin("tracing", rays_ahead_);
-        for (std::size_t k = 0; k < light.size() && !run_.stop_requested(); ++k) {
+        for (std::size_t k = 0; k < light.size() && run_.keep_going(); ++k) {
             Layer layer;
             if (fill(layer, light[k], static_cast<std::uint32_t>(k), m.notes))
                 m.layers.push_back(std::move(layer));
@@ -78,8 +76,7 @@ class Gonioreflectometer {
         run_.end();
         m.stopped = run_.stop_requested();
         if (m.stopped) m.notes.emplace_back("stopped before it was complete");
-        m.trace_seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        m.trace_seconds = run_.progress().seconds;
         return m;
     }
 
@@ -114,7 +111,7 @@ class Gonioreflectometer {
         trace_batches(light, stream, 0, batches, sums);
 
         // Refine until the errors are small enough
-        while (experiment_.run.until > 0 && !run_.stop_requested() && !accurate(sums)) {
+        while (experiment_.run.until > 0 && run_.keep_going() && !accurate(sums)) {
             const std::uint64_t room =
                 (plan_.limit - std::min(plan_.limit, sums.rays())) / plan_.largest();
             const std::uint64_t more = std::min(batches, room);
@@ -144,7 +141,7 @@ class Gonioreflectometer {
         std::mutex mutex;
         parallel_for(static_cast<std::size_t>(end - begin), run_.threads(), [&](std::size_t k) {
             const std::uint64_t b = begin + k;
-            if (run_.stop_requested()) return;
+            if (!run_.keep_going()) return;
             std::unique_ptr<Workplace> work = borrow_workplace();
             // Choose start points
             const LaunchBatch batch(surface_, double{tracer_.max_height()}, light,
@@ -154,7 +151,7 @@ class Gonioreflectometer {
             const Scene scene{tracer_, fresnel_, detector_, experiment_.run.bounces,
                               light.isotropic};
             for (std::uint64_t first = 0; first < batch.rays(); first += Follower::kMost) {
-                if (run_.stop_requested()) return;
+                if (!run_.keep_going()) return;
                 const std::uint64_t last = std::min(first + Follower::kMost, batch.rays());
                 work->follower.follow(scene, batch, first, last, work->sums);
                 run_.advance(last - first);

@@ -54,7 +54,7 @@ struct Measurement {
     std::vector<std::string> notes;  ///< what a reader should know, one sentence each
 
     // How it was run; no part of the checksum.
-    double trace_seconds = 0;  ///< wall-clock time of tracing
+    double trace_seconds = 0;  ///< wall-clock time of tracing, without pauses
     int threads = 0;
     std::string version;
 

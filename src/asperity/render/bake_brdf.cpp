@@ -297,7 +297,7 @@ void BrdfBaker::make_sampling(std::size_t slice) {
 
 void BrdfBaker::for_each(std::size_t count, const std::function<void(std::size_t)>& body) {
     parallel_for(count, run_.threads(), [&](std::size_t k) {
-        if (run_.stop_requested()) return;
+        if (!run_.keep_going()) return;
         body(k);
         run_.advance(1);
     });

@@ -5,7 +5,6 @@
 #include <asperity/render/tile.h>
 
 #include <algorithm>
-#include <chrono>
 #include <mutex>
 #include <utility>
 
@@ -60,7 +59,7 @@ bool Renderer::render_pass(Run& run) {
 
     std::mutex counts_mutex;
     parallel_for(behind.size(), run.threads(), [&](std::size_t k) {
-        if (run.stop_requested()) return;
+        if (!run.keep_going()) return;
         const Tile tile = grid.tile(behind[k]);
         RayCounts counts;
         render_tile(view, tile, sample, film_, counts);
@@ -77,7 +76,6 @@ std::uint32_t Renderer::samples() const {
 }
 
 RenderOutcome render(Renderer& renderer, Run& run) {
-    const auto begin = std::chrono::steady_clock::now();
     const RenderSettings& settings = renderer.settings();
     RenderOutcome outcome;
     run.begin("rendering", missing(renderer.film(), settings.spp));
@@ -93,10 +91,9 @@ RenderOutcome render(Renderer& renderer, Run& run) {
         next_look = samples + (samples + 7) / 8;
     }
     run.end();
+    outcome.seconds = run.progress().seconds;
     outcome.samples = renderer.samples();
     outcome.noise = noise(renderer.film());
-    outcome.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return outcome;
 }
 

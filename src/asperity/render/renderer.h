@@ -37,9 +37,10 @@ class Renderer {
     /// calls run.advance() with the pixels of each tile that is done. begin() and end() are the
     /// caller's.
     ///
-    /// A wish to stop is heard before each tile, which takes a few milliseconds: some tiles are
-    /// then a sample ahead of others, and the next pass starts with those that are behind. Returns
-    /// true when all pixels have samples() samples, false when it was stopped before.
+    /// Wishes to stop and to pause are heard before each tile, which takes a few milliseconds: some
+    /// tiles are then a sample ahead of others, and the next pass starts with those that are
+    /// behind. Returns true when all pixels have samples() samples, false when it was stopped
+    /// before.
     bool render_pass(Run& run);
 
     /// Of the pixels that have fewest.

@@ -10,9 +10,9 @@
 
 namespace asperity {
 
-/// Throws Error(Stopped) once the user asked to stop.
+/// Throws Error(Stopped) once the user asked to stop; waits while the run is paused.
 inline void throw_if_stopped(const Run& run) {
-    if (run.stop_requested()) throw Error(ErrorCode::Stopped, "stopped");
+    if (!run.keep_going()) throw Error(ErrorCode::Stopped, "stopped");
 }
 
 /// Calls body(first, last) for [0, count) cut into blocks of `per_block`, on the threads of `run`.
