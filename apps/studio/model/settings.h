@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/core/vec.h>
+#include <asperity/gonio/experiment.h>
+#include <asperity/io/pictures.h>
+#include <asperity/render/rgb.h>
+#include <asperity/render/tonemap.h>
+
+#include <string>
+
+namespace asperity::studio {
+
+/// The two scenes of the thesis (2.2, 2.3).
+enum class SceneKind { Surface, Model };
+
+/// Thesis table 2.1; render/camera_controller.h has what they do.
+enum class CameraType { Orbiter, FirstPerson, SixDof };
+
+/// How the microfacets surface is shown.
+enum class SurfaceShading {
+    Normals,  ///< the thesis' look: red = |n_x|, green = |n_z|, blue = |n_y|
+    Lit,      ///< as a relief lit from the side, tinted by height
+};
+
+/// The scene "Microfacets Surface".
+struct SurfaceView {
+    CameraType camera_type = CameraType::Orbiter;
+    int current_layer = 15;  ///< Current Layer: whose dome, beam and paths are shown
+    SurfaceShading shading = SurfaceShading::Normals;
+    bool dome = true;    ///< the sky-map of the current layer, around the surface
+    bool beam = true;    ///< the incident beam as a wireframe (figures 2.10-2.12)
+    bool paths = false;  ///< sample paths of light
+    int path_count = 200;
+    io::SkyMapSettings sky_map{io::ColourMap::ThesisRed};  ///< colours of the dome
+};
+
+/// BRDF Type (thesis 2.3.1) and its fields.
+enum class BrdfType { CookTorrance, Simulated };
+
+struct BrdfSettings {
+    BrdfType type = BrdfType::CookTorrance;
+    double metallic = 1, roughness = 0.4;  ///< Cook Torrance, 0 .. 1
+    Rgb albedo{1, 1, 1};                   ///< Cook Torrance, each 0 .. 1
+    double normalize_factor = 1;           ///< Simulated, >= 0
+    Rgb diffuse{0, 0, 0};                  ///< Simulated: its Albedo, each 0 .. 1
+};
+
+enum class LightKind { Point, Sky, Environment };
+
+/// The scene "Model".
+struct ModelView {
+    CameraType camera_type = CameraType::Orbiter;
+    std::string model;  ///< a built-in model's name or a file; empty: none loaded yet
+    bool floor = false;
+    bool brdf_runs = false;  ///< Start BRDF / Stop BRDF: stopped, the model is a black shape
+    BrdfSettings brdf;
+    bool compare = false;  ///< split view: `brdf` left of the line, `second` right of it
+    BrdfSettings second{BrdfType::Simulated};
+    double split = 0.5;  ///< share of the width, 0 .. 1
+    /// Where the simulated BRDF comes from: a result file, or empty for the layers drawn in the
+    /// other scene.
+    std::string result;
+    LightKind light = LightKind::Point;
+    Vec3 light_position{1, 1, 1};
+    double light_intensity = 300;
+    double sun_elevation_deg = 45, sun_azimuth_deg = 130;
+    std::string environment;  ///< a latitude-longitude .exr or .hdr
+    double environment_rotation_deg = 0;
+    int depth = 1;  ///< reflections between parts of the model; 1 is the thesis' look
+    ToneMapping tone = kThesisLook;
+};
+
+enum class PlotKind { LobePolar, LobeCartesian, Hemisphere, Albedo, Normals };
+
+/// An analytic model drawn beside the simulated one.
+struct Overlay {
+    bool shown = false;
+    double alpha = 0.3;  ///< width of its slope distribution; Cook-Torrance: roughness^2
+};
+
+struct PlotView {
+    PlotKind kind = PlotKind::LobePolar;
+    io::Scale scale = io::Scale::Linear;
+    bool error_band = true;
+    bool follow_surface = true;  ///< overlays take the alpha of the surface
+    Overlay cook_torrance{true}, ggx, beckmann;
+};
+
+/// All that a session is made of and undo can bring back. Cameras are no settings.
+struct StudioSettings {
+    SceneKind scene = SceneKind::Surface;
+    Experiment experiment;  ///< Surface, Texture and Simulation Settings
+    SurfaceView surface_view;
+    ModelView model_view;
+    PlotView plots;
+};
+
+}  // namespace asperity::studio

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "../model/painting.h"
+#include "../model/settings.h"
+
+#include <asperity/render/camera_controller.h>
+
+#include <QElapsedTimer>
+#include <QPointF>
+#include <QTimer>
+#include <QWidget>
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace asperity::studio {
+
+/// A window onto a scene: shows the pictures of a Painter, paints lines and labels over them, and
+/// steers a camera by mouse and keys (thesis table 2.1; R resets).
+class Viewport : public QWidget {
+    Q_OBJECT
+
+  public:
+    /// What is painted over the picture, in widget coordinates.
+    using PaintOver = std::function<void(QPainter&, const Viewport&)>;
+    /// Begins the picture for a camera; called in the main thread, gives what the thread calls.
+    using Picture = std::function<BeginPainting(const Camera&)>;
+
+    explicit Viewport(QWidget* parent = nullptr);
+
+    void set_picture(Picture picture);  ///< null: an empty view
+    void add_overlay(PaintOver paint);
+    /// The scene changed: paint it anew; `moving`: more changes will follow at once.
+    void refresh(bool moving = false);
+    void refresh_overlay() { update(); }
+
+    const Camera& camera() const { return camera_; }
+    /// Where R leads back to, and where to begin. World: y up.
+    void set_home(const Orbiter& home);
+    void set_camera_type(CameraType type);
+    void reset_camera();
+    bool is_moving() const;
+
+    /// Where a point of the world lies in the widget; none behind the camera.
+    std::optional<QPointF> project(Vec3 point) const;
+    /// The ray through a place of the widget.
+    WorldRay ray_at(QPointF place) const;
+
+    Painter& painter() { return painter_; }
+    /// The picture shown and what is painted over it, at the widget's size.
+    QImage grab_picture() const;
+    const Frame& frame() const { return frame_; }
+
+  signals:
+    void camera_moved();
+    void clicked(QPointF place, Qt::MouseButton button);  ///< pressed and released without a drag
+    void hovered(QPointF place);
+    void frame_shown();
+
+  protected:
+    void paintEvent(QPaintEvent*) override;
+    void resizeEvent(QResizeEvent*) override;
+    void mousePressEvent(QMouseEvent*) override;
+    void mouseMoveEvent(QMouseEvent*) override;
+    void mouseReleaseEvent(QMouseEvent*) override;
+    void wheelEvent(QWheelEvent*) override;
+    void keyPressEvent(QKeyEvent*) override;
+    void keyReleaseEvent(QKeyEvent*) override;
+    void focusOutEvent(QFocusEvent*) override;
+
+  private:
+    void step();
+    void paint_over(QPainter& painter) const;
+
+    Painter painter_;
+    Picture picture_;
+    std::vector<PaintOver> overlays_;
+    Frame frame_;
+    Orbiter home_;
+    CameraController controller_;
+    Camera camera_;
+    CameraInput input_;
+    QPointF pressed_at_, last_at_;
+    QElapsedTimer clock_;
+    QTimer step_timer_, still_timer_;
+};
+
+}  // namespace asperity::studio
