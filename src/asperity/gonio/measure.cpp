@@ -11,9 +11,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 namespace asperity {
 
@@ -21,6 +23,15 @@ namespace {
 
 /// A batch larger than this is split: a stopped run loses the batches under way.
 constexpr std::uint64_t kLargestBatch = 1 << 20;
+
+/// A layer with nothing in it.
+Layer named_layer(const Incidence& light) {
+    Layer layer;
+    layer.number = light.number;
+    layer.theta_i = light.theta;
+    layer.phi_i = light.phi;
+    return layer;
+}
 
 /// How the rays of a layer are divided into independent batches.
 struct BatchPlan {
@@ -51,36 +62,90 @@ BatchPlan plan_batches(const Heightfield& surface, const RunSettings& run) {
     return plan;
 }
 
+/// Shows layers to the listener while they grow.
+class LayerPreview {
+  public:
+    explicit LayerPreview(const MeasureListener& listener) : listener_(listener) {}
+
+    /// Shows what `sums` hold if it is time for it; from any thread. `guard` is held while they are
+    /// copied.
+    void show(const Incidence& light, const LayerSums& sums, std::mutex& guard) {
+        if (!listener_.layer) return;
+        const std::unique_lock showing(mutex_, std::try_to_lock);
+        const auto begin = Clock::now();
+        if (!showing || begin < next_) return;
+        Layer layer = named_layer(light);
+        {
+            const std::scoped_lock lock(guard);
+            if (sums.batches() < 2) return;
+            sums.write(layer);
+        }
+        listener_.layer(layer, false);
+        const auto end = Clock::now();
+        next_ = std::max(begin + kShortestPause, end + 9 * (end - begin));
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::chrono::milliseconds kShortestPause{100};
+
+    const MeasureListener& listener_;
+    std::mutex mutex_;
+    Clock::time_point next_ = Clock::now();
+};
+
 /// Measures one layer after the other with the same tools.
 class Gonioreflectometer {
   public:
-    Gonioreflectometer(const Heightfield& surface, const Experiment& experiment, Run& run)
+    Gonioreflectometer(const Heightfield& surface, const Experiment& experiment, Run& run,
+                       const MeasureListener& listener)
         : surface_(surface),
           experiment_(experiment),
           run_(run),
+          listener_(listener),
+          preview_(listener),
           fresnel_(experiment.optics),
-          tracer_(surface, run.threads()),
           detector_(experiment.detector),
           plan_(plan_batches(surface, experiment.run)) {}
 
     Measurement measure() {
+        run_.begin("preparing", surface_.cell_count());
         Measurement m = describe();
-        const std::vector<Incidence> light = incidences(experiment_.illumination);
-        rays_ahead_ = plan_.rays * light.size();
-        run_.begin("tracing", rays_ahead_);
-        for (std::size_t k = 0; k < light.size() && run_.keep_going(); ++k) {
-            Layer layer;
-            if (fill(layer, light[k], static_cast<std::uint32_t>(k), m.notes))
-                m.layers.push_back(std::move(layer));
-        }
+        if (listener_.begun) listener_.begun(m);
+        const bool prepared = build_tracer();
         run_.end();
+        if (prepared) fill_layers(m);
         m.stopped = run_.stop_requested();
         if (m.stopped) m.notes.emplace_back("stopped before it was complete");
-        m.trace_seconds = run_.progress().seconds;
         return m;
     }
 
   private:
+    /// False when it was stopped.
+    bool build_tracer() {
+        try {
+            tracer_.emplace(surface_, run_);
+            return true;
+        } catch (const Error& error) {
+            if (error.code() != ErrorCode::Stopped) throw;
+            return false;
+        }
+    }
+
+    void fill_layers(Measurement& m) {
+        const std::vector<Incidence> light = incidences(experiment_.illumination);
+        rays_ahead_ = plan_.rays * light.size();
+        run_.begin("tracing", rays_ahead_);
+        for (std::size_t k = 0; k < light.size() && run_.keep_going(); ++k) {
+            Layer layer = named_layer(light[k]);
+            if (!fill(layer, light[k], static_cast<std::uint32_t>(k), m.notes)) continue;
+            if (listener_.layer) listener_.layer(layer, true);
+            m.layers.push_back(std::move(layer));
+        }
+        run_.end();
+        m.trace_seconds = run_.progress().seconds;
+    }
+
     Measurement describe() const {
         Measurement m;
         m.experiment = experiment_;
@@ -128,9 +193,6 @@ class Gonioreflectometer {
         }
 
         if (sums.batches() < 2) return false;
-        layer.number = light.number;
-        layer.theta_i = light.theta;
-        layer.phi_i = light.phi;
         sums.write(layer);
         return true;
     }
@@ -144,11 +206,11 @@ class Gonioreflectometer {
             if (!run_.keep_going()) return;
             std::unique_ptr<Workplace> work = borrow_workplace();
             // Choose start points
-            const LaunchBatch batch(surface_, double{tracer_.max_height()}, light,
+            const LaunchBatch batch(surface_, double{tracer_->max_height()}, light,
                                     experiment_.run.launch, plan_.rays_of(b), experiment_.run.seed,
                                     stream, static_cast<std::uint32_t>(b));
             // Follow the rays until they leave, and sort them by direction
-            const Scene scene{tracer_, fresnel_, detector_, experiment_.run.bounces,
+            const Scene scene{*tracer_, fresnel_, detector_, experiment_.run.bounces,
                               light.isotropic};
             for (std::uint64_t first = 0; first < batch.rays(); first += Follower::kMost) {
                 if (!run_.keep_going()) return;
@@ -162,6 +224,7 @@ class Gonioreflectometer {
                 sums.add(work->sums);
             }
             give_back(std::move(work));
+            preview_.show(light, sums, mutex);
         });
     }
 
@@ -205,8 +268,10 @@ class Gonioreflectometer {
     const Heightfield& surface_;
     const Experiment& experiment_;
     Run& run_;
+    const MeasureListener& listener_;
+    LayerPreview preview_;
     const Fresnel fresnel_;
-    const WideTracer tracer_;
+    std::optional<WideTracer> tracer_;
     const Detector detector_;
     const BatchPlan plan_;
     std::uint64_t rays_ahead_ = 0;
@@ -216,10 +281,11 @@ class Gonioreflectometer {
 
 }  // namespace
 
-Measurement measure(const Heightfield& surface, const Experiment& experiment, Run& run) {
+Measurement measure(const Heightfield& surface, const Experiment& experiment, Run& run,
+                    const MeasureListener& listener) {
     validate(experiment);
     validate(surface, surface.name);
-    return Gonioreflectometer(surface, experiment, run).measure();
+    return Gonioreflectometer(surface, experiment, run, listener).measure();
 }
 
 }  // namespace asperity

@@ -2,6 +2,7 @@
 #include <asperity/tracing/horizon.h>
 
 #include <asperity/core/parallel.h>
+#include <asperity/surface/blocks.h>
 #include <asperity/tracing/horizon_block.h>
 
 #include <algorithm>
@@ -26,7 +27,7 @@ float safety_margin(const PaddedHeights& heights) {
 
 }  // namespace
 
-Horizon::Horizon(const PaddedHeights& heights, int threads)
+Horizon::Horizon(const PaddedHeights& heights, Run& run)
     : pool_shift_(pool_shift_for(heights.cells_x(), heights.cells_y())) {
     const int size = 1 << pool_shift_;
     const int blocks_x = (heights.cells_x() + size - 1) >> pool_shift_;
@@ -35,18 +36,21 @@ Horizon::Horizon(const PaddedHeights& heights, int threads)
     constexpr int kPerLine = 4;
     pitch_ = ((blocks_x + kPerLine - 1) / kPerLine | 1) * kPerLine;
     constexpr int kReadable = 3;
-    bytes_.resize(static_cast<std::size_t>(pitch_) * static_cast<std::size_t>(blocks_y) * kSectors +
-                  kReadable);
+    allocate(bytes_,
+             static_cast<std::size_t>(pitch_) * static_cast<std::size_t>(blocks_y) * kSectors +
+                 kReadable,
+             run);
 
     const detail::HorizonGeometry geometry(heights.dx(), heights.dy(), HorizonBlock::pitches());
-    const detail::TileMaxima maxima(heights, threads);
+    const detail::TileMaxima maxima(heights, run);
     const float margin = safety_margin(heights);
 
     constexpr int kCells = HorizonBlock::kCells;
     const int columns = (heights.cells_x() + kCells - 1) / kCells;
     const int rows = (heights.cells_y() + kCells - 1) / kCells;
     const auto count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-    parallel_for(count, threads, [&](std::size_t task) {
+    parallel_for(count, run.threads(), [&](std::size_t task) {
+        throw_if_stopped(run);
         HorizonBlock block;
         const int i0 = static_cast<int>(task) % columns * kCells;
         const int j0 = static_cast<int>(task) / columns * kCells;
@@ -66,6 +70,8 @@ Horizon::Horizon(const PaddedHeights& heights, int threads)
                     entry[s] = std::max(entry[s], row[s * kCells + i]);
             }
         }
+        run.advance(static_cast<std::uint64_t>(block.cells_x) *
+                    static_cast<std::uint64_t>(block.cells_y));
     });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <asperity/core/run.h>
 #include <asperity/tracing/padded_heights.h>
 
 #include <cmath>
@@ -27,8 +28,11 @@ class Horizon {
 
     /// Tight within some 0.25 RMS slopes on average on smooth surfaces, a fourth of the slope
     /// itself on white noise. Cost: about 500 cycles a cell with AVX2; 1.2 MB of workspace a
-    /// thread. The bytes depend neither on `threads` nor on the instruction set.
-    Horizon(const PaddedHeights& heights, int threads);
+    /// thread. The bytes depend neither on the number of threads nor on the instruction set. Calls
+    /// run.advance() with the cells done; throws Error(Stopped) once the run is to be stopped.
+    Horizon(const PaddedHeights& heights, Run& run);
+    Horizon(const PaddedHeights& heights, Run&& run) : Horizon(heights, run) {}
+    Horizon(const PaddedHeights& heights, int threads) : Horizon(heights, Run(threads)) {}
 
     /// Sector of the horizontal direction (x, y), not both zero, in units of length (not cells).
     /// Bit 0: x < 0; bit 1: y < 0; bit 2: |y| > |x|; bit 3: the smaller one of |x|, |y| exceeds

@@ -2,6 +2,7 @@
 #include <asperity/tracing/horizon_block.h>
 
 #include <asperity/core/parallel.h>
+#include <asperity/surface/blocks.h>
 
 #include <algorithm>
 
@@ -52,13 +53,14 @@ void load_row(const PaddedHeights& heights, int i0, int j, float* out) {
 
 }  // namespace
 
-TileMaxima::TileMaxima(const PaddedHeights& heights, int threads) {
+TileMaxima::TileMaxima(const PaddedHeights& heights, const Run& run) {
     constexpr int kTile = HorizonReach::kTile;
     const HeightScale scale(heights);
     columns = (heights.cells_x() + kTile - 1) / kTile;
     rows = (heights.cells_y() + kTile - 1) / kTile;
     highest.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-    parallel_for(static_cast<std::size_t>(rows), threads, [&](std::size_t b) {
+    parallel_for(static_cast<std::size_t>(rows), run.threads(), [&](std::size_t b) {
+        throw_if_stopped(run);
         const int j0 = static_cast<int>(b) * kTile, j1 = std::min(j0 + kTile, heights.cells_y());
         for (int a = 0; a < columns; ++a) {
             const int i0 = a * kTile, i1 = std::min(i0 + kTile, heights.cells_x());

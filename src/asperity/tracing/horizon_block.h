@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <asperity/core/run.h>
 #include <asperity/tracing/horizon_terms.h>
 #include <asperity/tracing/padded_heights.h>
 
@@ -24,7 +25,7 @@ struct TileMaxima {
     int columns, rows;
     std::vector<float> highest;
 
-    TileMaxima(const PaddedHeights& heights, int threads);
+    TileMaxima(const PaddedHeights& heights, const Run& run);
 };
 
 /// One level of tiles around the block, and what its viewers need to climb over them.

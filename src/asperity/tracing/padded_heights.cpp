@@ -2,6 +2,7 @@
 #include <asperity/tracing/padded_heights.h>
 
 #include <asperity/core/parallel.h>
+#include <asperity/surface/blocks.h>
 
 #include <algorithm>
 
@@ -23,7 +24,7 @@ int wrap(int index, int count) {
 
 }  // namespace
 
-PaddedHeights::PaddedHeights(const Heightfield& s, int threads)
+PaddedHeights::PaddedHeights(const Heightfield& s, const Run& run)
     : cells_x_(repeated(s.cells_x(), s.boundary == Boundary::Periodic)),
       cells_y_(repeated(s.cells_y(), s.boundary == Boundary::Periodic)),
       periodic_(s.boundary == Boundary::Periodic),
@@ -35,12 +36,14 @@ PaddedHeights::PaddedHeights(const Heightfield& s, int threads)
     const int columns = cells_x_ + 1 + 2 * kMargin, rows = cells_y_ + 1 + 2 * kMargin;
     const int lines = (columns + kLine - 1) / kLine;
     pitch_ = kLine * (lines % 2 == 0 ? lines + 1 : lines);
-    heights_.assign(static_cast<std::size_t>(pitch_) * static_cast<std::size_t>(rows), kFarBelow);
+    allocate(heights_, static_cast<std::size_t>(pitch_) * static_cast<std::size_t>(rows), run);
 
     const auto source_column = [&](int i) { return mirrored_ ? s.cells_x() - i : i; };
-    parallel_for(static_cast<std::size_t>(rows), threads, [&](std::size_t row) {
+    parallel_for(static_cast<std::size_t>(rows), run.threads(), [&](std::size_t row) {
+        throw_if_stopped(run);
         const int j = static_cast<int>(row) - kMargin;
         float* out = &heights_[row * static_cast<std::size_t>(pitch_)];
+        std::fill_n(out, pitch_, kFarBelow);
         if (periodic_) {
             const int from = wrap(j, s.cells_y());
             for (int k = 0; k < columns; ++k)
@@ -49,9 +52,23 @@ PaddedHeights::PaddedHeights(const Heightfield& s, int threads)
             for (int i = 0; i <= cells_x_; ++i) out[i + kMargin] = s.at(source_column(i), j);
         }
     });
-    const auto [lowest, highest] = std::minmax_element(s.heights.begin(), s.heights.end());
-    min_height_ = *lowest;
-    max_height_ = *highest;
+    find_range(s, run);
+}
+
+void PaddedHeights::find_range(const Heightfield& s, const Run& run) {
+    const auto width = static_cast<std::size_t>(s.nx);
+    std::vector<float> lowest(static_cast<std::size_t>(s.ny)), highest(lowest.size());
+    for_blocks(s.ny, 16, run, [&](int first, int last) {
+        for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last);
+             ++row) {
+            const float* heights = &s.heights[row * width];
+            const auto [low, high] = std::minmax_element(heights, heights + width);
+            lowest[row] = *low;
+            highest[row] = *high;
+        }
+    });
+    min_height_ = *std::min_element(lowest.begin(), lowest.end());
+    max_height_ = *std::max_element(highest.begin(), highest.end());
 }
 
 }  // namespace asperity

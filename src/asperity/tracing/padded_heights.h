@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <asperity/core/run.h>
 #include <asperity/surface/heightfield.h>
 
 #include <cstddef>
@@ -22,7 +23,9 @@ class PaddedHeights {
     static constexpr int kShortest = 64;
     static constexpr float kFarBelow = -1e30f;
 
-    PaddedHeights(const Heightfield& surface, int threads);
+    /// Throws Error(Stopped) once the run is to be stopped.
+    PaddedHeights(const Heightfield& surface, const Run& run);
+    PaddedHeights(const Heightfield& surface, int threads) : PaddedHeights(surface, Run(threads)) {}
 
     int cells_x() const { return cells_x_; }
     int cells_y() const { return cells_y_; }
@@ -45,6 +48,8 @@ class PaddedHeights {
     std::size_t memory_bytes() const { return heights_.size() * sizeof(float); }
 
   private:
+    void find_range(const Heightfield& surface, const Run& run);
+
     int cells_x_, cells_y_, pitch_ = 0;
     bool periodic_, mirrored_;
     double dx_, dy_;

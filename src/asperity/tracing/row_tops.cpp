@@ -2,13 +2,14 @@
 #include <asperity/tracing/row_tops.h>
 
 #include <asperity/core/parallel.h>
+#include <asperity/surface/blocks.h>
 
 #include <algorithm>
 #include <limits>
 
 namespace asperity {
 
-RowTops::RowTops(const PaddedHeights& heights, int width, int depth, int threads) {
+RowTops::RowTops(const PaddedHeights& heights, int width, int depth, const Run& run) {
     constexpr float kNothing = -std::numeric_limits<float>::infinity();
     const int nx = heights.cells_x(), ny = heights.cells_y();
     columns_ = (nx + kStride - 1) / kStride;
@@ -16,7 +17,8 @@ RowTops::RowTops(const PaddedHeights& heights, int width, int depth, int threads
     tops_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows), kNothing);
 
     // Windows begin anywhere within a stride, so they are larger by that
-    parallel_for(static_cast<std::size_t>(rows), threads, [&](std::size_t row) {
+    parallel_for(static_cast<std::size_t>(rows), run.threads(), [&](std::size_t row) {
+        throw_if_stopped(run);
         std::vector<float> column_tops(static_cast<std::size_t>(nx), kNothing);
         const int first = static_cast<int>(row) * kStride;
         for (int y = first; y < first + kStride + depth; ++y) {

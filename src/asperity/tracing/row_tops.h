@@ -17,7 +17,8 @@ class RowTops {
     static constexpr int kStride = 8;  ///< cells from window to window
 
     /// A window that begins at cell (i, j) holds the samples up to (i + width, j + depth).
-    RowTops(const PaddedHeights& heights, int width, int depth, int threads);
+    /// Throws Error(Stopped) once the run is to be stopped.
+    RowTops(const PaddedHeights& heights, int width, int depth, const Run& run);
 
     /// At least the highest sample (x, y) with i <= x <= i + width, j <= y <= j + depth;
     /// 0 <= i < cells_x, 0 <= j < cells_y.

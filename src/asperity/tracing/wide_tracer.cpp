@@ -22,14 +22,14 @@ PathWave::~PathWave() = default;
 PathWave::PathWave(PathWave&&) noexcept = default;
 PathWave& PathWave::operator=(PathWave&&) noexcept = default;
 
-WideTracer::WideTracer(const Heightfield& surface, int threads)
+WideTracer::WideTracer(const Heightfield& surface, Run& run)
     : surface_cells_x_(surface.cells_x()),
       surface_cells_y_(surface.cells_y()),
-      heights_(surface, threads),
-      horizon_(heights_, threads),
+      heights_(surface, run),
+      horizon_(heights_, run),
       grid_(heights_, horizon_) {
     if (heights_.periodic())
-        tops_.emplace(heights_, kLaunchGroup + LaunchLine::kReach, LaunchLine::kReach, threads);
+        tops_.emplace(heights_, kLaunchGroup + LaunchLine::kReach, LaunchLine::kReach, run);
 }
 
 std::size_t WideTracer::memory_bytes() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <asperity/core/run.h>
 #include <asperity/tracing/horizon.h>
 #include <asperity/tracing/launch_line.h>
 #include <asperity/tracing/padded_heights.h>
@@ -55,8 +56,12 @@ class PathWave {
 class WideTracer {
   public:
     /// Copies the heights and builds the horizons: memory see memory_bytes(), time about 60 ns a
-    /// sample and thread.
-    WideTracer(const Heightfield& surface, int threads);
+    /// sample and thread. Calls run.advance() with the cells whose horizons are done, to
+    /// surface.cell_count() of them; begin() and end() are the caller's. Throws Error(Stopped)
+    /// within 100 ms once the run is to be stopped.
+    WideTracer(const Heightfield& surface, Run& run);
+    WideTracer(const Heightfield& surface, Run&& run) : WideTracer(surface, run) {}
+    WideTracer(const Heightfield& surface, int threads) : WideTracer(surface, Run(threads)) {}
 
     float max_height() const { return heights_.max_height(); }
     bool mirrored() const { return heights_.mirrored(); }
