@@ -111,8 +111,7 @@ class Gonioreflectometer {
     Measurement measure() {
         run_.begin("preparing", surface_.cell_count());
         Measurement m = describe();
-        if (listener_.begun) listener_.begun(m);
-        const bool prepared = build_tracer();
+        const bool prepared = prepare(m);
         run_.end();
         if (prepared) fill_layers(m);
         m.stopped = run_.stop_requested();
@@ -121,9 +120,11 @@ class Gonioreflectometer {
     }
 
   private:
-    /// False when it was stopped.
-    bool build_tracer() {
+    /// Looks at the surface and builds the tracer; false when it was stopped.
+    bool prepare(Measurement& m) {
         try {
+            m.surface = statistics(surface_, run_);
+            if (listener_.begun) listener_.begun(m);
             tracer_.emplace(surface_, run_);
             return true;
         } catch (const Error& error) {
@@ -151,7 +152,6 @@ class Gonioreflectometer {
         m.experiment = experiment_;
         m.detector = detector_;
         m.channel_names = fresnel_.channel_names();
-        m.surface = statistics(surface_, run_.threads());
         m.surface_name = surface_.name;
         if (!surface_.tiling.empty()) m.surface_name += ", " + surface_.tiling;
         m.surface_nx = surface_.nx;

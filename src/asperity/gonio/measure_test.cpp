@@ -302,6 +302,17 @@ TEST(Measure, AStopEndsAPause) {
     EXPECT_LT(took.count(), 0.25);  // 100 ms, shared CPU
 }
 
+TEST(Measure, StopsBeforeItHasBegun) {
+    asperity::Run run(2);
+    run.request_stop();
+    bool begun = false;
+    const Measurement m =
+        measure(noise(64, 5), Experiment{}, run, {[&](const Measurement&) { begun = true; }, {}});
+    EXPECT_TRUE(m.stopped);
+    EXPECT_TRUE(m.layers.empty());
+    EXPECT_FALSE(begun);
+}
+
 TEST(Measure, StopsWhilePreparing) {
     const Heightfield s = noise(2048, 5);
     asperity::Run run(2);

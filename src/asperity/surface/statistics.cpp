@@ -119,17 +119,19 @@ void set_slope_figures(SurfaceStatistics& result, const FacetSums& f, double fac
 
 }  // namespace
 
-SurfaceStatistics statistics(const Heightfield& surface, int threads) {
+SurfaceStatistics statistics(const Heightfield& surface, const Run& run) {
     const auto add_heights = [&](HeightMoments& part, int j) {
+        throw_if_stopped(run);
         const auto offset = static_cast<std::size_t>(j) * static_cast<std::size_t>(surface.nx);
         part += row_moments(surface.heights.data() + offset, surface.nx);
     };
     const auto add_facets = [&](FacetSums& part, int j) {
+        throw_if_stopped(run);
         visit_facets(surface, j, [&](int, Triangle, Slope s) { part.add(s); });
     };
     SurfaceStatistics result;
-    set_height_figures(result, sum_rows<HeightMoments>(surface.ny, threads, add_heights));
-    set_slope_figures(result, sum_rows<FacetSums>(surface.cells_y(), threads, add_facets),
+    set_height_figures(result, sum_rows<HeightMoments>(surface.ny, run.threads(), add_heights));
+    set_slope_figures(result, sum_rows<FacetSums>(surface.cells_y(), run.threads(), add_facets),
                       2.0 * static_cast<double>(surface.cell_count()));
     return result;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <asperity/core/run.h>
 #include <asperity/core/vec.h>
 #include <asperity/surface/heightfield.h>
 
@@ -27,8 +28,11 @@ struct SurfaceStatistics {
     double area_ratio = 1;  ///< true area / projected area = 1 + Sdr
 };
 
-/// One pass over the samples and one over the facets, in double precision, on `threads` threads;
-/// same bits for any number of threads.
-SurfaceStatistics statistics(const Heightfield& surface, int threads);
+/// One pass over the samples and one over the facets, in double precision; same bits for any number
+/// of threads. Throws Error(Stopped) within milliseconds once the run is to be stopped.
+SurfaceStatistics statistics(const Heightfield& surface, const Run& run);
+inline SurfaceStatistics statistics(const Heightfield& surface, int threads) {
+    return statistics(surface, Run(threads));
+}
 
 }  // namespace asperity
