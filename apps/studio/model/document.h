@@ -30,6 +30,8 @@ class Document : public QObject {
 
     /// Replaces everything, without history: a session was opened or a new one begun.
     void reset(const StudioSettings& settings);
+    /// The same for a session that was lost unsaved; `path` as it was, `modified` it is.
+    void restore(const StudioSettings& settings, const QString& path);
 
     QUndoStack& undo_stack() { return undo_; }
 
@@ -46,9 +48,12 @@ class Document : public QObject {
 
   private:
     class Step;
-    void apply(const StudioSettings& settings);
+    void replace(const StudioSettings& settings, const QString& path);
+    void announce();
+    void set_path(const QString& path);
 
     StudioSettings settings_;
+    StudioSettings told_;  ///< as the listeners of `changed` know them
     QUndoStack undo_;
     QString path_;
 };

@@ -33,6 +33,8 @@ class Workbench : public QObject {
     /// Draw To Textures with the settings as they are; waits for a surface under way. Errors come
     /// as `complaint`.
     void draw_to_textures();
+    /// Stop Drawing, also of a drawing that still waits for its surface.
+    void stop_drawing();
     bool are_layers_current() const;
     /// True while a drawing runs or waits: settings that decide it must not change.
     bool is_drawing() const;
@@ -47,12 +49,17 @@ class Workbench : public QObject {
 
   signals:
     void cell_selected();
+    void drawing_changed();                   ///< is_drawing() may have
     void complaint(const QString& sentence);  ///< an error, as the CLI prints it
     void logged(const QString& line);
 
   private:
     void follow_settings(const StudioSettings& before);
     void look_for_paths();
+    void surface_ready();
+    void begin_drawing();
+    void set_waiting(bool waiting);
+    void complain(const QString& sentence);
 
     Document document_;
     SurfaceSource surface_;
