@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Short names for the scripts in tools/.
-.PHONY: demo test bench format check
+.PHONY: demo studio test bench format check
 
-demo test bench format check:
+demo studio test bench format check:
 	@tools/$@
