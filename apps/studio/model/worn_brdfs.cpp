@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "worn_brdfs.h"
+
+#include <asperity/brdf/cook_torrance.h>
+#include <asperity/brdf/tabulated.h>
+#include <asperity/core/error.h>
+#include <asperity/io/experiment_text.h>
+#include <asperity/io/result_file.h>
+#include <asperity/render/baked_brdf.h>
+
+#include <QFileInfo>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace asperity::studio {
+
+namespace {
+
+/// So many results are kept ready: one may go to and fro between them.
+constexpr std::size_t kKept = 4;
+
+double in_unit_interval(double value) {
+    return std::clamp(value, 0.0, 1.0);
+}
+
+Rgb in_unit_interval(Rgb c) {
+    return {in_unit_interval(c.r), in_unit_interval(c.g), in_unit_interval(c.b)};
+}
+
+Material cook_torrance(const BrdfSettings& worn) {
+    constexpr double kLeastRoughness = 0.01;  // at 0 the thesis' D is 0 / 0
+    const Rgb albedo = in_unit_interval(worn.albedo);
+    CookTorranceSettings settings;
+    settings.roughness = std::max(kLeastRoughness, in_unit_interval(worn.roughness));
+    settings.metallic = in_unit_interval(worn.metallic);
+    settings.albedo = {albedo.r, albedo.g, albedo.b};
+    return Material(std::make_shared<CookTorranceBrdf>(settings));
+}
+
+bool wears_simulated(const ModelView& view) {
+    return view.brdf.type == BrdfType::Simulated ||
+           (view.compare && view.second.type == BrdfType::Simulated);
+}
+
+/// Throws what the command line throws for a result that cannot be shown in colours.
+void expect_colours(const Measurement& m, const std::string& where) {
+    if (m.channels() == 1 || m.channels() == 3) return;
+    throw Error(ErrorCode::InvalidInput,
+                fmt::format("has {} channels, a picture needs 1 (grey) or 3 (red, green, blue): "
+                            "measure with --wavelengths 650,550,450",
+                            m.channels()),
+                where);
+}
+
+}  // namespace
+
+WornBrdfs::WornBrdfs(Drawing& drawing, QObject* parent)
+    : QObject(parent),
+      drawing_(drawing),
+      errand_(this, [this](const QString& sentence) { give_up(sentence); }) {
+    const auto look_again = [this] { wear(view_); };
+    connect(&drawing_, &Drawing::completed, this, look_again);
+    connect(&drawing_, &Drawing::layers_changed, this, [look_again](int number) {
+        if (number == 0) look_again();  // cleared, or read from a file
+    });
+}
+
+void WornBrdfs::wear(const ModelView& view) {
+    view_ = view;
+    if (!view.brdf_runs || !wears_simulated(view)) {
+        if (errand_.busy()) {
+            errand_.stop();
+            wanted_.reset();
+        }
+        trouble_.clear();
+        return;
+    }
+    Source source;
+    if (!view.result.empty()) {
+        source.file = view.result;
+        source.written = QFileInfo(QString::fromStdString(view.result)).lastModified();
+    } else {
+        source.drawn = drawing_.result();
+    }
+    if (wanted_ != source) want(source);
+}
+
+void WornBrdfs::want(const Source& source) {
+    wanted_ = source;
+    trouble_.clear();
+    errand_.stop();
+    const auto known = std::find_if(made_.begin(), made_.end(),
+                                    [&](const Simulated& s) { return s.source == source; });
+    if (source.drawn == nullptr && source.file.empty()) {
+        give_up(drawing_.state() == Drawing::State::Idle
+                    ? tr("draw textures in the scene Microfacets Surface first, or open a result")
+                    : tr("the textures are still being drawn: the simulated BRDF follows"));
+    } else if (known != made_.end()) {
+        std::rotate(made_.begin(), known, known + 1);
+        emit changed();
+    } else {
+        errand_.start([this, source](Run& run) {
+            const Simulated made = simulate(source, run);
+            return [this, made] { take(made); };
+        });
+        emit changed();
+    }
+}
+
+WornBrdfs::Simulated WornBrdfs::simulate(const Source& source, Run& run) {
+    const auto measurement =
+        source.drawn != nullptr
+            ? source.drawn
+            : std::make_shared<const Measurement>(io::load_measurement(source.file));
+    const std::string where = source.drawn != nullptr ? "the result drawn" : source.file;
+    expect_colours(*measurement, where);
+    if (run.stop_requested()) throw Error(ErrorCode::Stopped, "stopped");
+    const auto table = make_tabulated_brdf(*measurement);
+    return {source,
+            bake_brdf(*table, run),
+            QString::fromStdString(measurement->surface_name),
+            {{"experiment", io::to_text(measurement->experiment)},
+             {"experiment-checksum", io::checksum(*measurement)}}};
+}
+
+void WornBrdfs::take(const Simulated& made) {
+    made_.insert(made_.begin(), made);
+    if (made_.size() > kKept) made_.pop_back();
+    emit changed();
+}
+
+void WornBrdfs::give_up(const QString& sentence) {
+    trouble_ = sentence;
+    emit failed(sentence);
+    emit changed();
+}
+
+const WornBrdfs::Simulated* WornBrdfs::worn() const {
+    if (made_.empty() || !wanted_ || made_.front().source != *wanted_) return nullptr;
+    return &made_.front();
+}
+
+std::optional<Material> WornBrdfs::material(const BrdfSettings& settings) const {
+    if (settings.type == BrdfType::CookTorrance) return cook_torrance(settings);
+    const Simulated* simulated = worn();
+    if (simulated == nullptr) return std::nullopt;
+    return Material(simulated->brdf,
+                    {std::max(0.0, settings.normalize_factor), in_unit_interval(settings.diffuse)});
+}
+
+QString WornBrdfs::description(const BrdfSettings& settings) const {
+    if (settings.type == BrdfType::CookTorrance) {
+        return tr("Cook Torrance, metallic %1, roughness %2")
+            .arg(settings.metallic)
+            .arg(settings.roughness);
+    }
+    const Simulated* simulated = worn();
+    const QString surface = simulated != nullptr ? simulated->surface : QString();
+    return surface.isEmpty() ? tr("Simulated") : tr("Simulated, %1").arg(surface);
+}
+
+io::Provenance WornBrdfs::origin() const {
+    const Simulated* simulated = worn();
+    return simulated != nullptr && wears_simulated(view_) ? simulated->origin : io::Provenance{};
+}
+
+}  // namespace asperity::studio

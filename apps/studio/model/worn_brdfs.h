@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "drawing.h"
+#include "errand.h"
+#include "settings.h"
+
+#include <asperity/io/render_writer.h>
+#include <asperity/render/material.h>
+
+#include <QDateTime>
+#include <QObject>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace asperity::studio {
+
+/// From the BRDF Settings to what a model wears. Cook-Torrance is there at once; a simulated BRDF
+/// is made from the layers drawn, or from a result file, by a thread of its own, once for each
+/// result: a change of Normalize Factor or Albedo finds it ready.
+class WornBrdfs : public QObject {
+    Q_OBJECT
+
+  public:
+    explicit WornBrdfs(Drawing& drawing, QObject* parent = nullptr);
+
+    /// Sees to it that all a view wears is there or on its way; `changed` or `failed` follows.
+    void wear(const ModelView& view);
+
+    /// None as long as the simulated BRDF is not ready, see trouble() and busy(). Settings outside
+    /// their ranges are taken at their ends.
+    std::optional<Material> material(const BrdfSettings& settings) const;
+    /// A line for the user: "Cook Torrance, metallic 1, roughness 0.4".
+    QString description(const BrdfSettings& settings) const;
+    /// The simulated BRDF's experiment, for pictures that show it.
+    io::Provenance origin() const;
+
+    bool busy() const { return errand_.busy(); }
+    Progress progress() const { return errand_.progress(); }
+    /// Why there is no simulated BRDF though one is wanted; empty when there is, or soon will be.
+    const QString& trouble() const { return trouble_; }
+
+  signals:
+    void changed();
+    void failed(const QString& sentence);
+
+  private:
+    /// What a simulated BRDF is made from: a measurement in memory, or a file as it was then.
+    struct Source {
+        std::shared_ptr<const Measurement> drawn;
+        std::string file;
+        QDateTime written;
+        bool operator==(const Source&) const = default;
+    };
+    struct Simulated {
+        Source source;
+        std::shared_ptr<const Brdf> brdf;
+        QString surface;
+        io::Provenance origin;
+    };
+    static Simulated simulate(const Source& source, Run& run);
+    void want(const Source& source);
+    void take(const Simulated& made);
+    void give_up(const QString& sentence);
+    const Simulated* worn() const;
+
+    Drawing& drawing_;
+    Errand errand_;
+    ModelView view_;
+    std::optional<Source> wanted_;
+    std::vector<Simulated> made_;  ///< the latest first
+    QString trouble_;
+};
+
+}  // namespace asperity::studio
