@@ -17,14 +17,15 @@ class Painting {
   public:
     virtual ~Painting() = default;
     /// One pass over all pixels; hears run.stop_requested() within a few milliseconds. False when
-    /// it was stopped, or when no further pass would better the picture.
+    /// it was stopped, or when no further pass would better the picture. May throw.
     virtual bool pass(Run& run) = 0;
     /// What was painted so far, 8-bit, of the size asked for. After the first pass at least.
     virtual QImage image() const = 0;
 };
 
 /// Begins a painting of `size` pixels. Holds copies of (or shared pointers to) all it needs, for it
-/// is called and used by another thread.
+/// is called and used by another thread. Takes a few milliseconds: all that takes longer belongs
+/// into the first pass. May throw.
 using BeginPainting = std::function<std::unique_ptr<Painting>(QSize size)>;
 
 /// A picture that a Painter gives: `image` may be smaller than `full`, to be shown enlarged.
@@ -40,7 +41,8 @@ struct Frame {
 ///
 /// While the view moves, each wish gets one pass, at a resolution chosen so that a frame takes at
 /// most a 30th of a second; a frame under way is finished first, so that something moves. Once it
-/// is still, the full resolution, pass after pass, until the next wish.
+/// is still, the full resolution, pass after pass, until the next wish; only a moving view breaks
+/// off its first pass.
 class Painter : public QObject {
     Q_OBJECT
 
@@ -59,6 +61,8 @@ class Painter : public QObject {
   signals:
     /// In the thread this object lives in.
     void frame_ready(const asperity::studio::Frame& frame);
+    /// What a painting threw; there will be no frame of it.
+    void failed(const QString& sentence);
 
   private:
     class Work;

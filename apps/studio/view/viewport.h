@@ -71,7 +71,9 @@ class Viewport : public QWidget {
     void focusOutEvent(QFocusEvent*) override;
 
   private:
+    bool show_camera(bool moving);
     void step();
+    void wake();
     void paint_over(QPainter& painter) const;
 
     Painter painter_;
@@ -83,6 +85,7 @@ class Viewport : public QWidget {
     Camera camera_;
     CameraInput input_;
     QPointF pressed_at_, last_at_;
+    bool dragged_ = false;  ///< the pressed mouse has moved: no click any more
     QElapsedTimer clock_;
     QTimer step_timer_, still_timer_;
 };
