@@ -5,7 +5,8 @@
 #include "averages.h"
 #include "json_file.h"
 #include "product_run.h"
-#include "surfaces.h"
+#include "program.h"
+#include "task_options.h"
 
 #include <asperity/core/energy.h>
 
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 
 namespace asperity::bench {
 
@@ -154,7 +154,7 @@ std::vector<Row> measure_all(const Options& options) {
     for (const std::string& name : options.surfaces) {
         const Heightfield surface = make_bench_surface(name, options.size);
         for (const double theta : options.thetas) {
-            fmt::print(stderr, "{} at {}° ...\n", name, theta);
+            say_next(fmt::format("{} at {}°", name, theta));
             const Setting setting{surface, theta, options.batches};
             const Reference reference = reference_of(setting, options.reference_rays);
             for (std::size_t k = 0; k < options.rays.size(); ++k) {
@@ -228,16 +228,9 @@ nlohmann::ordered_json json(const std::vector<Row>& rows, const Options& options
 int main_of(int argc, char** argv) {
     Options options;
     CLI::App app("Time to equal error of the launch patterns over random launch");
-    app.add_option("--surface", options.surfaces)
-        ->check(CLI::IsMember(surface_names()))
-        ->delimiter(',')
-        ->capture_default_str();
-    app.add_option("--theta", options.thetas, "of incidence [degrees]")
-        ->delimiter(',')
-        ->capture_default_str();
-    app.add_option("--size", options.size, "samples on a side")
-        ->check(CLI::Range(2, kMaxSurfaceSide))
-        ->capture_default_str();
+    add_surface(app, options.surfaces);
+    add_theta(app, options.thetas);
+    add_size(app, options.size);
     app.add_option("--rays", options.rays, "of a run")->delimiter(',')->capture_default_str();
     app.add_option("--seeds", options.seeds, "runs to average over, for each of --rays")
         ->check(CLI::Range(1, 1'000'000))
@@ -262,10 +255,6 @@ int main_of(int argc, char** argv) {
 }  // namespace asperity::bench
 
 int main(int argc, char** argv) {
-    try {
-        return asperity::bench::main_of(argc, argv);
-    } catch (const std::exception& e) {
-        fmt::print(stderr, "equal_error_bench: error: {}\n", e.what());
-        return 1;
-    }
+    return asperity::bench::guarded_main("equal_error_bench",
+                                         [&] { return asperity::bench::main_of(argc, argv); });
 }

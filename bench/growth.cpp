@@ -5,7 +5,7 @@
 #include "product_run.h"
 #include "product_tasks.h"
 #include "rival.h"
-#include "surfaces.h"
+#include "task_options.h"
 
 #include <fmt/format.h>
 
@@ -113,7 +113,7 @@ Report report(const Options& options, const std::vector<std::unique_ptr<Entry>>&
 Report run(const Options& options) {
     std::vector<std::unique_ptr<Entry>> entries;
     for (const int size : options.sizes) {
-        fmt::print(stderr, "  N = {}\n", size);
+        say_next(fmt::format("N = {}", size));
         entries.push_back(make_ready(options, size));
     }
     for (int repetition = 1; repetition < options.repetitions; ++repetition) {
@@ -127,18 +127,14 @@ Report run(const Options& options) {
 Task add_growth(CLI::App& program) {
     const auto options = std::make_shared<Options>();
     CLI::App* app = program.add_subcommand("growth", "cost per path and memory by size");
-    app->add_option("--surface", options->surface)
-        ->check(CLI::IsMember(surface_names()))
-        ->capture_default_str();
+    add_surface(*app, options->surface);
     app->add_option("--size", options->sizes, "samples on a side, smallest first")
         ->check(CLI::Range(2, kMaxSurfaceSide))
         ->delimiter(',')
         ->capture_default_str();
-    app->add_option("--theta", options->theta_deg, "of incidence [degrees]")->capture_default_str();
+    add_theta(*app, options->theta_deg);
     app->add_option("--paths", options->paths, "default: one a cell, at least 2^20, at most 2^24");
-    app->add_option("--repetitions", options->repetitions)
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
+    add_repetitions(*app, options->repetitions);
     return {app, [options] { return bench::run(*options); }};
 }
 

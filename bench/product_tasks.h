@@ -1,29 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
-
-#include <functional>
-#include <string>
+#include "task.h"
 
 namespace asperity::bench {
 
-/// What a task found: a table for the eye, and all figures.
-struct Report {
-    std::string table;
-    nlohmann::ordered_json figures;
-};
-
-/// One question about the product, as a subcommand with options of its own.
-struct Task {
-    CLI::App* app = nullptr;
-    std::function<Report()> run;
-};
-
+/// Cost of a path and memory, by the size of the surface.
 Task add_growth(CLI::App& program);
+/// Several threads over one.
 Task add_threads(CLI::App& program);
+/// Exact reflectances of a metal over perfect mirrors.
 Task add_fresnel(CLI::App& program);
+/// Where the time of a whole run goes.
 Task add_stages(CLI::App& program);
 
 }  // namespace asperity::bench

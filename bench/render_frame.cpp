@@ -3,6 +3,7 @@
 #include "averages.h"
 #include "render_scenes.h"
 #include "render_tasks.h"
+#include "task_options.h"
 
 #include <asperity/brdf/spec.h>
 
@@ -43,6 +44,7 @@ Report run(const Options& options) {
     const Material analytic(parse_brdf_spec("cook-torrance:roughness=0.65,metallic=1"));
     const Material simulated(simulated_brdf(*measured_brdf()));
     for (const View& view : kViews) {
+        say_next(view.name);
         const RenderBench bench(view.model);
         RenderSettings settings;
         settings.width = settings.height = options.size;
@@ -77,7 +79,7 @@ Task add_frame(CLI::App& program) {
     const auto options = std::make_shared<Options>();
     CLI::App* app = program.add_subcommand("frame", "simulated BRDF over Cook-Torrance");
     app->add_option("--size", options->size, "of the picture [pixels]")->capture_default_str();
-    app->add_option("--repetitions", options->repetitions)->capture_default_str();
+    add_repetitions(*app, options->repetitions);
     return {app, [options] { return run(*options); }};
 }
 

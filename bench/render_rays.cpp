@@ -5,6 +5,7 @@
 #include "clocks.h"
 #include "render_scenes.h"
 #include "render_tasks.h"
+#include "task_options.h"
 
 #include <asperity/brdf/lambert.h>
 #include <asperity/render/shading.h>
@@ -261,6 +262,7 @@ Report run(const Options& options) {
         "{1:<10}{2:>12}{3:>10}{4:>10}{5:>10}{6:>12}{7:>12}\n",
         options.size, "model", "bare 1", "bare 8", "ours", "frame", "ours/bare", "frame/bare");
     for (const char* name : {"sphere", "knot", "ball", "bowl"}) {
+        say_next(name);
         const RenderBench bench(name);
         const BareScene bare(bench.model);
         const BareCamera camera(bench.camera, options.size);
@@ -305,7 +307,7 @@ Task add_rays(CLI::App& program) {
     CLI::App* app = program.add_subcommand("rays", "rays per second over bare loops of Embree");
     app->add_option("--size", options->size, "of the picture, a multiple of 16 [pixels]")
         ->capture_default_str();
-    app->add_option("--repetitions", options->repetitions)->capture_default_str();
+    add_repetitions(*app, options->repetitions);
     return {app, [options] { return run(*options); }};
 }
 

@@ -66,6 +66,7 @@ Report run() {
         {"tabulated, as rendered", simulated_brdf(*measured)}};
     const std::vector<Call> calls = make_calls();
     for (const auto& [name, brdf] : all) {
+        say_next(name);
         const Material material(brdf);
         const double eval =
             nanoseconds(calls, [&](const Call& c) { return material.eval(c.view, c.light).g; });

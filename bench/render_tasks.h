@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "product_tasks.h"
+#include "task.h"
 
 namespace asperity::bench {
 

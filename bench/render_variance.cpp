@@ -67,6 +67,7 @@ Report run(const Options& options) {
         {"simulated 0.42", simulated},
         {"lambert", parse_brdf_spec("lambert:albedo=0.8")}};
     for (const auto& [name, brdf] : all) {
+        say_next(name);
         ModelScene scene = bench.scene(Material(brdf), false);
         scene.lights.clear();
         for (auto& light : make_sky(sky)) scene.lights.push_back(std::move(light));

@@ -6,6 +6,7 @@
 #include "product_run.h"
 #include "product_tasks.h"
 #include "surfaces.h"
+#include "task_options.h"
 
 #include <asperity/io/result_file.h>
 #include <asperity/io/surface_files.h>
@@ -78,6 +79,7 @@ Report run(const Options& options) {
     const std::string path =
         (std::filesystem::temp_directory_path() / "asperity_stages.asperity").string();
     for (const std::string& name : options.surfaces) {
+        say_next(name);
         Experiment experiment;
         experiment.surface = surface_settings(name, options.size);
         experiment.run.jitter = options.jitter;
@@ -110,18 +112,11 @@ Report run(const Options& options) {
 Task add_stages(CLI::App& program) {
     const auto options = std::make_shared<Options>();
     CLI::App* app = program.add_subcommand("stages", "where the time of a whole run goes");
-    app->add_option("--surface", options->surfaces)
-        ->check(CLI::IsMember(surface_names()))
-        ->delimiter(',')
-        ->capture_default_str();
-    app->add_option("--size", options->size, "samples on a side")
-        ->check(CLI::Range(2, kMaxSurfaceSide))
-        ->capture_default_str();
+    add_surface(*app, options->surfaces);
+    add_size(*app, options->size);
     app->add_option("--jitter", options->jitter, "launch points per cell")->capture_default_str();
     app->add_option("--threads", options->threads, "0: all");
-    app->add_option("--repetitions", options->repetitions)
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
+    add_repetitions(*app, options->repetitions);
     return {app, [options] { return bench::run(*options); }};
 }
 

@@ -3,7 +3,7 @@
 #include "averages.h"
 #include "product_run.h"
 #include "product_tasks.h"
-#include "surfaces.h"
+#include "task_options.h"
 
 #include <fmt/format.h>
 
@@ -41,6 +41,7 @@ Report run(const Options& options) {
         fmt::format("trace {}", options.threads), "ratio", "measure 1",
         fmt::format("measure {}", options.threads), "ratio");
     for (const std::string& name : options.surfaces) {
+        say_next(name);
         const Heightfield surface = make_bench_surface(name, options.size);
         Experiment experiment = bench_experiment(options.theta_deg, 0);
         experiment.run.rays = rays_for_seconds(surface, experiment, options.seconds);
@@ -75,20 +76,13 @@ Report run(const Options& options) {
 Task add_threads(CLI::App& program) {
     const auto options = std::make_shared<Options>();
     CLI::App* app = program.add_subcommand("threads", "several threads beside one");
-    app->add_option("--surface", options->surfaces)
-        ->check(CLI::IsMember(surface_names()))
-        ->delimiter(',')
-        ->capture_default_str();
-    app->add_option("--size", options->size, "samples on a side")
-        ->check(CLI::Range(2, kMaxSurfaceSide))
-        ->capture_default_str();
-    app->add_option("--theta", options->theta_deg, "of incidence [degrees]")->capture_default_str();
+    add_surface(*app, options->surfaces);
+    add_size(*app, options->size);
+    add_theta(*app, options->theta_deg);
     app->add_option("--threads", options->threads)->check(CLI::Range(2, 1024));
     app->add_option("--seconds", options->seconds, "one thread's work in a repetition, about")
         ->capture_default_str();
-    app->add_option("--repetitions", options->repetitions)
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
+    add_repetitions(*app, options->repetitions);
     return {app, [options] { return bench::run(*options); }};
 }
 

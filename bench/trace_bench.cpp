@@ -2,9 +2,11 @@
 // Speed of our tracer beside Embree's and the thesis' marching: same surfaces and incidence, same
 // run. docs/performance.md says what is measured and why this way.
 #include "json_file.h"
+#include "program.h"
 #include "report.h"
 #include "rival.h"
 #include "surfaces.h"
+#include "task_options.h"
 
 #include <asperity/core/run.h>
 #include <asperity/surface/make_surface.h>
@@ -14,7 +16,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <exception>
 #include <iterator>
 #include <map>
 
@@ -73,7 +74,7 @@ std::vector<Row> race_all(const Options& options) {
     std::vector<Row> all;
     for (const int size : options.sizes) {
         for (const std::string& name : surfaces_of(options, size)) {
-            if (!options.quiet) fmt::print(stderr, "{}, N = {} ...\n", name, size);
+            if (!options.quiet) say_next(fmt::format("{}, N = {}", name, size));
             Run run;
             const Heightfield surface = make_surface(surface_settings(name, size), run);
             for (Row& row : race_on(surface, options, run.threads())) {
@@ -133,9 +134,7 @@ void add_options(CLI::App& app, Options& options) {
         ->capture_default_str();
     app.add_option("--own-paths", options.own_paths,
                    "our paths per row; default: one a cell, at least --paths, at most 2^24");
-    app.add_option("--repetitions", options.repetitions, "of which the median counts")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
+    add_repetitions(app, options.repetitions);
     app.add_option("--bounces", options.bounces, "reflections a path may make")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
@@ -172,10 +171,6 @@ int main_of(int argc, char** argv) {
 }  // namespace asperity::bench
 
 int main(int argc, char** argv) {
-    try {
-        return asperity::bench::main_of(argc, argv);
-    } catch (const std::exception& e) {
-        fmt::print(stderr, "trace_bench: error: {}\n", e.what());
-        return 1;
-    }
+    return asperity::bench::guarded_main("trace_bench",
+                                         [&] { return asperity::bench::main_of(argc, argv); });
 }
