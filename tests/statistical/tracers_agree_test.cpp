@@ -6,17 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
-
 namespace asperity {
 namespace {
 
-struct Case {
-    const char* name;
-    SurfaceKind kind;
-    double strength;
-    double ties = 1e-5;  ///< share of the rays that may end otherwise
-};
+using test::Case;
 class TracersAgree : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Surfaces, TracersAgree,
                          testing::Values(Case{"gaussian_smooth", SurfaceKind::Gaussian, 0.1414},
@@ -26,10 +19,10 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, TracersAgree,
                                          Case{"noise_rough", SurfaceKind::Thesis, 1.0},
                                          Case{"ggx", SurfaceKind::Ggx, 0.5},
                                          Case{"pyramids", SurfaceKind::Pyramids, 0.3, 1e-4}),
-                         [](const auto& test) { return std::string(test.param.name); });
+                         test::name_of_case);
 
 TEST_P(TracersAgree, ForAMillionRays) {
-    const Heightfield s = test::surface_of(GetParam().kind, GetParam().strength, 256);
+    const Heightfield s = test::surface_of(GetParam(), 256);
     const test::Agreement a = test::follow_both(s, 500000, 7);
     ASSERT_GE(a.rays, 1000000);
     // Ties: rays that pass an edge or a grazed facet within rounding of single precision. On

@@ -8,11 +8,31 @@
 #include <asperity/surface/make_surface.h>
 #include <asperity/tracing/wide_tracer.h>
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
+#include <ostream>
+#include <string>
 #include <vector>
 
 namespace asperity::test {
+
+/// A surface to try the tracers on.
+struct Case {
+    const char* name;
+    SurfaceKind kind;
+    double strength;     ///< roughness or alpha, whichever the kind has
+    double ties = 1e-5;  ///< share of the rays that may end otherwise
+};
+/// The name of the surface, not its bytes.
+inline void PrintTo(const Case& c, std::ostream* out) {
+    *out << c.name;
+}
+/// Names the tests of a suite after their surfaces.
+inline std::string name_of_case(const testing::TestParamInfo<Case>& info) {
+    return info.param.name;
+}
 
 /// What two tracers made of the same rays.
 struct Agreement {
@@ -84,12 +104,12 @@ inline Agreement follow_both(const Heightfield& s, int rays, std::uint64_t seed)
     return sum;
 }
 
-inline Heightfield surface_of(SurfaceKind kind, double strength, int size) {
+inline Heightfield surface_of(const Case& c, int size) {
     SurfaceSettings settings;
-    settings.kind = kind;
+    settings.kind = c.kind;
     settings.size = size;
-    settings.roughness = strength;
-    settings.alpha_x = settings.alpha_y = strength;
+    settings.roughness = c.strength;
+    settings.alpha_x = settings.alpha_y = c.strength;
     asperity::Run run;
     return make_surface(settings, run);
 }

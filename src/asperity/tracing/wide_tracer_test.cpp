@@ -6,11 +6,7 @@
 namespace asperity {
 namespace {
 
-struct Case {
-    const char* name;
-    SurfaceKind kind;
-    double strength;
-};
+using test::Case;
 class WideTracerOn : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Surfaces, WideTracerOn,
                          testing::Values(Case{"gaussian_smooth", SurfaceKind::Gaussian, 0.14},
@@ -20,12 +16,12 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, WideTracerOn,
                                          Case{"noise", SurfaceKind::Thesis, 0.2},
                                          Case{"noise_rough", SurfaceKind::Thesis, 1.0},
                                          Case{"ggx", SurfaceKind::Ggx, 0.5}),
-                         [](const auto& test) { return std::string(test.param.name); });
+                         test::name_of_case);
 
 TEST_P(WideTracerOn, AgreesWithThePlainTracerRayByRay) {
     for (const Diagonal diagonal : {Diagonal::Anti, Diagonal::Main})
         for (const Boundary boundary : {Boundary::Periodic, Boundary::Finite}) {
-            Heightfield s = test::surface_of(GetParam().kind, GetParam().strength, 128);
+            Heightfield s = test::surface_of(GetParam(), 128);
             s.diagonal = diagonal;
             s.boundary = boundary;
             s.dx = 1.25;
@@ -84,7 +80,7 @@ void follow_row(const Heightfield& s, const Vec3& d, double u, double v, int i, 
 }
 
 TEST_P(WideTracerOn, LaunchesRowsAsThePlainTracerRayByRay) {
-    const Heightfield s = test::surface_of(GetParam().kind, GetParam().strength, 128);
+    const Heightfield s = test::surface_of(GetParam(), 128);
     const CounterRandom random(5, 0);
     for (std::uint64_t n = 0; n < 40; ++n) {
         const auto p = random.uniform2(n, 0), q = random.uniform2(n, 1), r = random.uniform2(n, 2);
