@@ -46,14 +46,15 @@ std::shared_ptr<const TracedModel> trace(const Model& model, bool floor, Run& ru
 }  // namespace
 
 LoadedModel::LoadedModel(QObject* parent)
-    : QObject(parent), errand_(this, [this](const QString& sentence) { give_up(sentence); }) {}
+    : QObject(parent), background_(this, [this](const QString& sentence) { give_up(sentence); }) {}
 
 void LoadedModel::load(const std::string& name, bool floor) {
     // The floor alone changes: the file need not be read again
     const bool same = model_ != nullptr && name == name_ && name == wanted_ && floor != floor_;
     wanted_ = name;
     wanted_floor_ = floor;
-    errand_.start([this, name, floor, known = same ? model_ : nullptr](Run& run) {
+    background_.start([this, name, floor, known = same ? model_ : nullptr](
+                          Run& run, const auto&) -> Background::Delivery {
         Found found{name, floor, known, nullptr, {}};
         if (found.model == nullptr) found.model = fetch(name, found.remarks);
         found.traced = trace(*found.model, floor, run);
@@ -63,7 +64,7 @@ void LoadedModel::load(const std::string& name, bool floor) {
 }
 
 void LoadedModel::forget() {
-    errand_.stop();
+    background_.cancel();
     wanted_.clear();
     name_.clear();
     model_ = nullptr;

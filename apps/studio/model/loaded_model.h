@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "errand.h"
+#include "background.h"
 
 #include <asperity/render/mesh.h>
 #include <asperity/render/traced_model.h>
@@ -25,7 +25,7 @@ class LoadedModel : public QObject {
     void load(const std::string& name, bool floor);
     void forget();  ///< no model; ends what is under way
 
-    bool busy() const { return errand_.busy(); }
+    bool busy() const { return background_.busy(); }
     /// The model that is wished for: name() unless busy().
     const std::string& wanted() const { return wanted_; }
     bool wanted_floor() const { return wanted_floor_; }
@@ -47,7 +47,7 @@ class LoadedModel : public QObject {
     void take(const Found& found);
     void give_up(const QString& sentence);
 
-    Errand errand_;
+    Background background_;
     std::string wanted_, name_;
     bool wanted_floor_ = false, floor_ = false;
     std::shared_ptr<const Model> model_;  ///< without the floor

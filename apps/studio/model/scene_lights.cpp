@@ -28,7 +28,7 @@ SceneLights::Lights sky(double elevation_deg, double azimuth_deg) {
 }  // namespace
 
 SceneLights::SceneLights(QObject* parent)
-    : QObject(parent), errand_(this, [this](const QString& sentence) { give_up(sentence); }) {}
+    : QObject(parent), background_(this, [this](const QString& sentence) { give_up(sentence); }) {}
 
 SceneLights::Wish SceneLights::wish_of(const ModelView& view) {
     // What the kind of light does not use is left out: it changes nothing
@@ -57,24 +57,25 @@ void SceneLights::shine(const ModelView& view) {
 
 void SceneLights::make(const Wish& wish) {
     if (wish.kind == LightKind::Point) {
-        errand_.stop();
+        background_.cancel();
         try {
             take(point_light(wish.position, wish.intensity), false);
         } catch (const Error& error) {
             give_up(QString::fromUtf8(error.what()));
         }
     } else if (wish.kind == LightKind::Sky) {
-        errand_.start([this, wish](Run&) {
+        background_.start([this, wish](Run&, const auto&) -> Background::Delivery {
             const Lights lights = sky(wish.sun_elevation_deg, wish.sun_azimuth_deg);
             return [this, lights] { take(lights, true); };
         });
     } else if (wish.environment.empty()) {
-        errand_.stop();
+        background_.cancel();
         trouble_ = tr("choose an environment: a latitude-longitude picture, .exr or .hdr");
         emit changed();
     } else {
         const bool known = surroundings_.file == wish.environment;
-        errand_.start([this, wish, map = known ? surroundings_.map : nullptr](Run&) {
+        background_.start([this, wish, map = known ? surroundings_.map : nullptr](
+                              Run&, const auto&) -> Background::Delivery {
             const Surroundings found{
                 wish.environment,
                 map ? map : std::make_shared<const Image>(io::read_image(wish.environment))};

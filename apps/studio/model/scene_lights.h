@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "errand.h"
+#include "background.h"
 #include "settings.h"
 
 #include <asperity/render/image.h>
@@ -33,7 +33,7 @@ class SceneLights : public QObject {
     const Lights& lights() const { return lights_; }
     /// They are drawn behind the model: sky or surroundings.
     bool are_seen() const { return seen_; }
-    bool busy() const { return errand_.busy(); }
+    bool busy() const { return background_.busy(); }
     /// Why the lights are not those of the settings; empty when they are, or on their way.
     const QString& trouble() const { return trouble_; }
 
@@ -61,7 +61,7 @@ class SceneLights : public QObject {
     void take(Lights lights, bool seen);
     void give_up(const QString& sentence);
 
-    Errand errand_;
+    Background background_;
     std::optional<Wish> wish_;
     Lights lights_;
     bool seen_ = false;

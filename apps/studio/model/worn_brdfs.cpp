@@ -59,7 +59,7 @@ void expect_colours(const Measurement& m, const std::string& where) {
 WornBrdfs::WornBrdfs(Drawing& drawing, QObject* parent)
     : QObject(parent),
       drawing_(drawing),
-      errand_(this, [this](const QString& sentence) { give_up(sentence); }) {
+      background_(this, [this](const QString& sentence) { give_up(sentence); }) {
     const auto look_again = [this] { wear(view_); };
     connect(&drawing_, &Drawing::completed, this, look_again);
     connect(&drawing_, &Drawing::layers_changed, this, [look_again](int number) {
@@ -70,8 +70,8 @@ WornBrdfs::WornBrdfs(Drawing& drawing, QObject* parent)
 void WornBrdfs::wear(const ModelView& view) {
     view_ = view;
     if (!view.brdf_runs || !wears_simulated(view)) {
-        if (errand_.busy()) {
-            errand_.stop();
+        if (background_.busy()) {
+            background_.cancel();
             wanted_.reset();
         }
         trouble_.clear();
@@ -90,7 +90,7 @@ void WornBrdfs::wear(const ModelView& view) {
 void WornBrdfs::want(const Source& source) {
     wanted_ = source;
     trouble_.clear();
-    errand_.stop();
+    background_.cancel();
     const auto known = std::find_if(made_.begin(), made_.end(),
                                     [&](const Simulated& s) { return s.source == source; });
     if (source.drawn == nullptr && source.file.empty()) {
@@ -101,10 +101,12 @@ void WornBrdfs::want(const Source& source) {
         std::rotate(made_.begin(), known, known + 1);
         emit changed();
     } else {
-        errand_.start([this, source](Run& run) {
+        run_ = std::make_shared<Run>();
+        const auto make = [this, source](Run& run, const auto&) -> Background::Delivery {
             const Simulated made = simulate(source, run);
             return [this, made] { take(made); };
-        });
+        };
+        background_.start(make, run_);
         emit changed();
     }
 }

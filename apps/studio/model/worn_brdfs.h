@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "background.h"
 #include "drawing.h"
-#include "errand.h"
 #include "settings.h"
 
 #include <asperity/io/render_writer.h>
@@ -38,8 +38,8 @@ class WornBrdfs : public QObject {
     /// The simulated BRDF's experiment, for pictures that show it.
     io::Provenance origin() const;
 
-    bool busy() const { return errand_.busy(); }
-    Progress progress() const { return errand_.progress(); }
+    bool busy() const { return background_.busy(); }
+    Progress progress() const { return run_ != nullptr ? run_->progress() : Progress{}; }
     /// Why there is no simulated BRDF though one is wanted; empty when there is, or soon will be.
     const QString& trouble() const { return trouble_; }
 
@@ -68,7 +68,8 @@ class WornBrdfs : public QObject {
     const Simulated* worn() const;
 
     Drawing& drawing_;
-    Errand errand_;
+    Background background_;
+    std::shared_ptr<Run> run_;  ///< of the simulated BRDF made last
     ModelView view_;
     std::optional<Source> wanted_;
     std::vector<Simulated> made_;  ///< the latest first
