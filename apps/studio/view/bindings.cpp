@@ -70,10 +70,7 @@ void Bindings::follow(const std::function<void(const StudioSettings&)>& show) {
 
 DrawingLock::DrawingLock(Workbench& workbench, QObject* parent)
     : QObject(parent), workbench_(workbench) {
-    connect(&workbench.drawing(), &Drawing::state_changed, this, &DrawingLock::update);
-    connect(&workbench.surface(), &SurfaceSource::started, this, &DrawingLock::update);
-    connect(&workbench.surface(), &SurfaceSource::ready, this, &DrawingLock::update);
-    connect(&workbench.surface(), &SurfaceSource::failed, this, &DrawingLock::update);
+    connect(&workbench, &Workbench::drawing_changed, this, &DrawingLock::update);
 }
 
 void DrawingLock::add(QWidget* control) {

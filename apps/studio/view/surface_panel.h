@@ -7,6 +7,8 @@
 
 namespace asperity::studio {
 
+class SurfaceFields;
+
 /// The controls of the scene "Microfacets Surface" but camera, statistics and buttons: Surface
 /// Settings, Texture Settings, Simulation Settings, and what is shown.
 class SurfacePanel : public QWidget {
@@ -14,6 +16,12 @@ class SurfacePanel : public QWidget {
 
   public:
     explicit SurfacePanel(Workbench& workbench, QWidget* parent = nullptr);
+
+    /// Asks for a file and makes its heights the surface.
+    void open_surface_file();
+
+  private:
+    SurfaceFields* surface_;
 };
 
 }  // namespace asperity::studio

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "log_view.h"
+
+#include <QContextMenuEvent>
+#include <QFontDatabase>
+#include <QMenu>
+
+namespace asperity::studio {
+
+namespace {
+
+constexpr int kMostLines = 10000;
+
+QString drawn_line(const Workbench& workbench, const Drawing& drawing) {
+    const Measurement& result = *drawing.result();
+    double rays = 0;
+    for (const Layer& layer : result.layers) rays += static_cast<double>(layer.rays);
+    const auto layers = static_cast<int>(result.layers.size());
+    return workbench
+        .tr("Drew %n layer(s) of %1: %2 million rays in %3 s, checksum %4", nullptr, layers)
+        .arg(QString::fromStdString(result.surface_name))
+        .arg(rays / 1e6, 0, 'g', 3)
+        .arg(result.trace_seconds, 0, 'g', 3)
+        .arg(drawing.checksum());
+}
+
+}  // namespace
+
+LogView::LogView(Workbench& workbench, QWidget* parent) : QPlainTextEdit(parent) {
+    setObjectName("log");
+    setReadOnly(true);
+    setMaximumBlockCount(kMostLines);
+    setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+    setPlaceholderText(tr("Statistics printed to the log, drawings, complaints"));
+    setAccessibleName(tr("Log"));
+    for (const QString& line : workbench.log_lines()) appendPlainText(line);
+    connect(&workbench, &Workbench::logged, this, &QPlainTextEdit::appendPlainText);
+}
+
+void LogView::contextMenuEvent(QContextMenuEvent* event) {
+    QMenu* menu = createStandardContextMenu();
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    menu->addSeparator();
+    menu->addAction(tr("Clear Log"), this, &QPlainTextEdit::clear);
+    menu->popup(event->globalPos());
+}
+
+void log_events(Workbench& workbench) {
+    Drawing& drawing = workbench.drawing();
+    QObject::connect(&drawing, &Drawing::completed, &workbench, [&workbench, &drawing] {
+        workbench.log(drawn_line(workbench, drawing));
+        for (const std::string& note : drawing.result()->notes)
+            workbench.log(QString::fromStdString(note));
+    });
+    SurfaceSource& source = workbench.surface();
+    QObject::connect(&source, &SurfaceSource::ready, &workbench, [&workbench, &source] {
+        const Heightfield& surface = *source.surface();
+        workbench.log(QString("Surface %1: %2 x %3 samples, RMS slope %4")
+                          .arg(QString::fromStdString(surface.name))
+                          .arg(surface.nx)
+                          .arg(surface.ny)
+                          .arg(source.statistics().rms_gradient, 0, 'g', 3));
+    });
+}
+
+}  // namespace asperity::studio
