@@ -184,7 +184,7 @@ class Walk {
             end = RayEnd::Escaped;
             return false;
         }
-        if (!move(index, along_u ? s_.cells_x() : s_.cells_y(), step)) {
+        if (!(along_u ? move_x(step) : move_y(step))) {
             end = RayEnd::Edge;
             return false;
         }
@@ -216,11 +216,14 @@ class Walk {
     }
 
     /// Steps over one cell or tile; false at the side of a finite patch.
-    bool move(int& index, int cells, int step) const {
+    bool move_x(int step) { return move(i_, tiles_x_, s_.cells_x(), step); }
+    bool move_y(int step) { return move(j_, tiles_y_, s_.cells_y(), step); }
+    bool move(int& index, int& tiles, int cells, int step) const {
         index += step;
         if (index >= 0 && index < cells) return true;
         if (s_.boundary == Boundary::Finite) return false;
         index = index < 0 ? cells - 1 : 0;
+        tiles += step;
         return true;
     }
 
@@ -272,8 +275,8 @@ class Walk {
             end = RayEnd::Escaped;
             return true;
         }
-        const bool inside = over_u ? move(i_, s_.cells_x(), (du_ > 0) != kMirrored ? 1 : -1)
-                                   : move(j_, s_.cells_y(), dv_ > 0 ? 1 : -1);
+        const bool inside =
+            over_u ? move_x((du_ > 0) != kMirrored ? 1 : -1) : move_y(dv_ > 0 ? 1 : -1);
         if (!inside) end = RayEnd::Edge;
         return true;
     }
@@ -296,6 +299,8 @@ class Walk {
         ray.u = kMirrored ? 1 - u_ : u_;
         ray.v = v_;
         ray.z = z_;
+        ray.tiles_x += tiles_x_;
+        ray.tiles_y += tiles_y_;
         ray.facet = end != RayEnd::Hit
                         ? -1
                         : static_cast<std::int32_t>(lower_ ? Triangle::Lower : Triangle::Upper);
@@ -305,6 +310,7 @@ class Walk {
     const Heightfield& s_;
     const HeightBounds& bounds_;
     int i_, j_;
+    int tiles_x_ = 0, tiles_y_ = 0;  // gone over
     double u_, v_, z_;
     const double du_, dv_, dz_;                  // per unit of path: cells, cells, height
     const double per_u_, per_v_, per_diagonal_;  // path per cell in u, in v, in u + v

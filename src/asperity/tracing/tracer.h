@@ -19,6 +19,9 @@ struct Ray {
     double z = 0;             ///< [unit of the surface]
     Vec3 direction;           ///< of travel, unit length
     std::int32_t facet = -1;  ///< Triangle the ray starts on, -1: free above the surface
+    /// Tiles of a periodic surface the ray has gone over, right and down positive. Tracer counts
+    /// them; WideTracer does not.
+    std::int32_t tiles_x = 0, tiles_y = 0;
 };
 
 /// What became of a ray.
