@@ -52,6 +52,12 @@ void log_events(Workbench& workbench) {
         for (const std::string& note : drawing.result()->notes)
             workbench.log(QString::fromStdString(note));
     });
+    // Some complaints have been logged by who complains
+    QObject::connect(&workbench, &Workbench::complaint, &workbench,
+                     [&workbench](const QString& sentence) {
+                         const QStringList& lines = workbench.log_lines();
+                         if (lines.isEmpty() || lines.last() != sentence) workbench.log(sentence);
+                     });
     SurfaceSource& source = workbench.surface();
     QObject::connect(&source, &SurfaceSource::ready, &workbench, [&workbench, &source] {
         const Heightfield& surface = *source.surface();

@@ -131,7 +131,6 @@ bool MainWindow::save_to(const QString& path) {
 }
 
 void MainWindow::complain(const QString& sentence) {
-    workbench().log(sentence);
     emit workbench().complaint(sentence);
 }
 
