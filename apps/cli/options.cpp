@@ -230,9 +230,11 @@ Experiment ExperimentOptions::read(const std::string& spec) {
             throw Error(ErrorCode::Usage, "the value is empty", key);
         io::apply_setting(experiment, key, value);
     }
-    // Perfect mirrors have neither index nor material: who gives one means what it implies.
+    // Perfect mirrors have neither index nor material: who gives one means what it implies. A
+    // config file that says both means what it says.
     FresnelKind& fresnel = experiment.optics.fresnel;
-    if (fresnel == FresnelKind::None && !given("fresnel"))
+    const bool hinted = given("f0") || given("ior") || given("k") || given("material");
+    if (fresnel == FresnelKind::None && !given("fresnel") && (hinted || !fresnel_in_config_))
         fresnel = implied_fresnel(experiment.optics);
     return experiment;
 }
@@ -244,12 +246,15 @@ bool ExperimentOptions::any_given() const {
 
 void ExperimentOptions::apply_config(Experiment& experiment, const std::string& path) {
     std::vector<io::Setting> settings = io::parse_settings(read_text_file(path), path);
+    // Sections belong to other programs, such as the studio.
+    std::erase_if(settings, [](const io::Setting& s) { return !s.section.empty(); });
     // The surface first: its text may carry settings that single lines correct.
     std::stable_partition(settings.begin(), settings.end(),
                           [](const io::Setting& s) { return s.key == "surface"; });
     for (const io::Setting& setting : settings) {
         const std::string where = fmt::format("{}:{}", path, setting.line);
         CLI::Option* option = app_->get_option_no_throw("--" + setting.key);
+        if (setting.key == "fresnel") fresnel_in_config_ = true;
         if (find(setting.key)) {
             try {
                 io::apply_setting(experiment, setting.key, setting.value);

@@ -65,6 +65,7 @@ class ExperimentOptions {
 
     CLI::App* app_ = nullptr;
     CLI::Option* config_ = nullptr;
+    bool fresnel_in_config_ = false;
     std::vector<std::pair<std::string, CLI::Option*>> options_;  ///< key, option
 };
 

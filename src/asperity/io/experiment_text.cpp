@@ -27,23 +27,39 @@ class SettingsReader {
             const std::string_view line = trimmed(text_.substr(0, end));
             text_.remove_prefix(std::min(end + 1, text_.size()));
             ++line_;
-            if (!line.empty() && line.front() != '#') settings.push_back(read_line(line));
+            if (line.empty() || line.front() == '#') continue;
+            if (line.front() == '[')
+                section_ = read_section(line);
+            else
+                settings.push_back(read_line(line));
         }
         return settings;
     }
 
   private:
+    static bool is_name(std::string_view name) {
+        return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+            return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+        });
+    }
+
+    std::string read_section(std::string_view line) const {
+        const std::size_t end = line.find(']');
+        const bool closed = end != std::string_view::npos;
+        const std::string_view name = trimmed(line.substr(1, closed ? end - 1 : 0));
+        if (!is_name(name) || !uncomment(line.substr(end + 1)).empty())
+            fail(in_quotes(line) + " is no section '[name]'");
+        return std::string(name);
+    }
+
     Setting read_line(std::string_view line) const {
         const std::size_t equals = line.find('=');
         if (equals == std::string_view::npos) fail(in_quotes(line) + " is no 'key = value'");
         const std::string_view key = trimmed(line.substr(0, equals));
-        const bool named = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
-            return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
-        });
-        if (!named) fail(in_quotes(key) + " is no name of a setting");
+        if (!is_name(key)) fail(in_quotes(key) + " is no name of a setting");
         const std::string_view value = trimmed(line.substr(equals + 1));
-        return {std::string(key), value.starts_with('"') ? unquote(value) : uncomment(value),
-                line_};
+        return {std::string(key), value.starts_with('"') ? unquote(value) : uncomment(value), line_,
+                section_};
     }
 
     static std::string uncomment(std::string_view value) {
@@ -78,6 +94,7 @@ class SettingsReader {
     std::string_view text_;
     const std::string& name_;
     int line_ = 0;
+    std::string section_;
 };
 
 std::string quoted_if_needed(const std::string& value) {
@@ -103,6 +120,10 @@ std::vector<Setting> parse_settings(std::string_view text, const std::string& na
     return SettingsReader(text, name).read();
 }
 
+std::string setting_line(const std::string& key, const std::string& value) {
+    return fmt::format("{} = {}\n", key, quoted_if_needed(value));
+}
+
 void apply_setting(Experiment& experiment, const std::string& key, const std::string& value) {
     const ExperimentKey* known = find_experiment_key(key);
     if (known == nullptr) throw Error(ErrorCode::Usage, "there is no such setting", key);
@@ -112,7 +133,7 @@ void apply_setting(Experiment& experiment, const std::string& key, const std::st
 std::vector<Setting> settings_of(const Experiment& experiment) {
     std::vector<Setting> settings;
     for (const ExperimentKey& key : experiment_keys())
-        settings.push_back({key.name, key.get(experiment), 0});
+        settings.push_back({key.name, key.get(experiment), 0, {}});
     return settings;
 }
 
@@ -120,7 +141,7 @@ std::string to_text(const Experiment& experiment) {
     std::string text, group;
     for (const ExperimentKey& key : experiment_keys()) {
         if (group != key.group) text += fmt::format("# {}\n", group = key.group);
-        text += fmt::format("{} = {}\n", key.name, quoted_if_needed(key.get(experiment)));
+        text += setting_line(key.name, key.get(experiment));
     }
     return text;
 }
@@ -129,6 +150,7 @@ Experiment experiment_from_text(std::string_view text, const std::string& name) 
     Experiment experiment;
     std::set<std::string> seen;
     for (const Setting& setting : parse_settings(text, name)) {
+        if (!setting.section.empty()) continue;
         const std::string place = fmt::format("{}:{}", name, setting.line);
         if (!seen.insert(setting.key).second)
             throw Error(ErrorCode::InvalidInput, in_quotes(setting.key) + " is set twice", place);

@@ -13,13 +13,18 @@ namespace asperity::io {
 /// One line of a settings file: `key = value`, the key being a long option of the command line.
 struct Setting {
     std::string key;
-    std::string value;  ///< lists joined by commas
-    int line = 0;       ///< in the file, from 1
+    std::string value;    ///< lists joined by commas
+    int line = 0;         ///< in the file, from 1
+    std::string section;  ///< empty: of the experiment. Others belong to the program they name
 };
 
 /// Splits a settings text into its lines: `key = value`, `#` starts a comment, blank lines are
-/// skipped, double quotes around a value are taken off. Throws Error(InvalidInput, "name:line").
+/// skipped, double quotes around a value are taken off. A line `[name]` begins a section, up to the
+/// next one. Throws Error(InvalidInput, "name:line").
 std::vector<Setting> parse_settings(std::string_view text, const std::string& name);
+
+/// `key = value` and a line end, with quotes if parse_settings needs them to read the same value.
+std::string setting_line(const std::string& key, const std::string& value);
 
 /// Sets one field of the experiment from its long-option name ("alpha" takes "0.3" or "0.3,0.1").
 /// Throws Error(Usage, key) for an unknown key or a value that does not parse or fit.
@@ -29,7 +34,7 @@ void apply_setting(Experiment& experiment, const std::string& key, const std::st
 /// that reads back to the same bits. apply_setting over the result gives the same Experiment.
 std::vector<Setting> settings_of(const Experiment& experiment);
 
-/// The same as a text file with one comment line per group.
+/// The same as a text file with one comment line per group. Reading skips what lies in sections.
 std::string to_text(const Experiment& experiment);
 Experiment experiment_from_text(std::string_view text, const std::string& name);
 

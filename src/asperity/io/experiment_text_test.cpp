@@ -152,7 +152,6 @@ TEST(ExperimentText, SettingsFile) {
         expect_error(ErrorCode::InvalidInput, part, [&] { experiment_from_text(text, "e.txt"); });
     };
     bad("\nsurface", "e.txt:2: 'surface' is no 'key = value'");
-    bad("[run]\nseed = 1", "e.txt:1: '[run]' is no 'key = value'");
     bad("= 2", "e.txt:1: '' is no name of a setting");
     bad("Size = 2", "e.txt:1: 'Size' is no name of a setting");
     bad("size = \"2", "e.txt:1: a closing double quote is missing");
@@ -163,6 +162,31 @@ TEST(ExperimentText, SettingsFile) {
     bad("size = 8\nsise = 9", "e.txt:2: sise: there is no such setting");
     bad("alpha = 0.3x", "e.txt:1: alpha: '0.3x' is not a number");
     bad(std::string("alpha = 0.3\0", 12), "e.txt:1: alpha: '0.3?' is not a number");
+}
+
+TEST(ExperimentText, SectionsBelongToOthers) {
+    const std::string text =
+        "size = 8\n\n[studio]  # a comment\nsize = large\nbeam = \"a # b\"\n[ other-2 ]\nsize=1";
+    const auto settings = parse_settings(text, "e.txt");
+    ASSERT_EQ(settings.size(), 4u);
+    EXPECT_EQ(settings[0].section, "");
+    EXPECT_EQ(settings[1].section, "studio");
+    EXPECT_EQ(settings[1].line, 4);
+    EXPECT_EQ(settings[2].section, "studio");
+    EXPECT_EQ(settings[3].section, "other-2");
+    EXPECT_EQ(experiment_from_text(text, "e.txt").surface.size, 8);
+    for (const char* line : {"[", "[]", "[a", "[A b]", "[run] seed = 1", "[[run]]"})
+        expect_error(ErrorCode::InvalidInput, "e.txt:2: '",
+                     [&] { parse_settings(std::string("size = 8\n") + line + "\n", "e.txt"); });
+}
+
+TEST(ExperimentText, LinesReadBack) {
+    for (const char* value :
+         {"plain", "", " spaced ", "a # b", "\"q\" \\", "two\nlines\r", "[x]"}) {
+        const auto settings = parse_settings(setting_line("file-name", value), "e.txt");
+        ASSERT_EQ(settings.size(), 1u);
+        EXPECT_EQ(settings[0].value, value);
+    }
 }
 
 TEST(ExperimentText, ReadsListsPairsAndShares) {
