@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "workbench.h"
+
+#include <asperity/core/error.h>
+#include <asperity/io/experiment_text.h>
+
+#include <vector>
+
+namespace asperity::studio {
+namespace {
+
+/// The settings of one group, as text: equal if and only if the group is.
+std::string text_of(const Experiment& experiment, bool surface_only) {
+    Experiment part = surface_only ? Experiment{} : experiment;
+    part.surface = experiment.surface;
+    return io::to_text(part);
+}
+
+bool same_surface(const Experiment& a, const Experiment& b) {
+    return text_of(a, true) == text_of(b, true);
+}
+
+bool same_experiment(const Experiment& a, const Experiment& b) {
+    return text_of(a, false) == text_of(b, false);
+}
+
+bool same_detector(const DetectorSettings& a, const DetectorSettings& b) {
+    return a.kind == b.kind && a.resolution == b.resolution;
+}
+
+}  // namespace
+
+Workbench::Workbench(QObject* parent) : QObject(parent) {
+    connect(&document_, &Document::changed, this, &Workbench::follow_settings);
+    connect(&surface_, &SurfaceSource::ready, this, &Workbench::surface_ready);
+    connect(&surface_, &SurfaceSource::failed, this, [this](const QString& sentence) {
+        set_waiting(false);
+        complain(sentence);
+    });
+    connect(&drawing_, &Drawing::failed, this, &Workbench::complain);
+    connect(&drawing_, &Drawing::state_changed, this, &Workbench::drawing_changed);
+    // Another experiment: the cell looked at was one of the former's
+    connect(&drawing_, &Drawing::layers_changed, this, [this](int number) {
+        if (number == 0) select_cell(std::nullopt);
+    });
+    surface_.make(settings().experiment.surface);
+}
+
+void Workbench::draw_to_textures() {
+    if (surface_.busy())
+        set_waiting(true);
+    else
+        begin_drawing();
+}
+
+void Workbench::stop_drawing() {
+    set_waiting(false);
+    drawing_.stop();
+}
+
+bool Workbench::are_layers_current() const {
+    const auto& head = drawing_.layers().head;
+    return head && same_experiment(head->experiment, settings().experiment);
+}
+
+bool Workbench::is_drawing() const {
+    return draw_when_ready_ || drawing_.state() != Drawing::State::Idle;
+}
+
+void Workbench::select_cell(std::optional<int> cell) {
+    if (cell == cell_) return;
+    cell_ = cell;
+    emit cell_selected();
+    look_for_paths();
+}
+
+void Workbench::log(const QString& line) {
+    log_.append(line);
+    emit logged(line);
+}
+
+void Workbench::follow_settings(const StudioSettings& before) {
+    const StudioSettings& now = settings();
+    if (!same_detector(before.experiment.detector, now.experiment.detector))
+        select_cell(std::nullopt);
+    if (!same_surface(before.experiment, now.experiment)) {
+        surface_.make(now.experiment.surface);  // paths follow when it is ready
+        return;
+    }
+    const SurfaceView &then = before.surface_view, &view = now.surface_view;
+    if (then.paths != view.paths || then.path_count != view.path_count ||
+        then.current_layer != view.current_layer ||
+        !same_experiment(before.experiment, now.experiment))
+        look_for_paths();
+}
+
+void Workbench::look_for_paths() {
+    const SurfaceView& view = settings().surface_view;
+    if (!view.paths || !surface_.surface()) {
+        light_.forget();
+        return;
+    }
+    Experiment experiment = settings().experiment;
+    experiment.surface = surface_.settings();
+    light_.look({surface_.surface(), experiment, view.current_layer,
+                 static_cast<std::size_t>(view.path_count), cell_});
+}
+
+void Workbench::surface_ready() {
+    look_for_paths();
+    if (!draw_when_ready_) return;
+    begin_drawing();
+    set_waiting(false);
+}
+
+void Workbench::begin_drawing() {
+    try {
+        drawing_.start(surface_.surface(), settings().experiment);
+    } catch (const Error& error) {
+        complain(QString::fromUtf8(error.what()));
+    }
+}
+
+void Workbench::set_waiting(bool waiting) {
+    if (waiting == draw_when_ready_) return;
+    draw_when_ready_ = waiting;
+    emit drawing_changed();
+}
+
+void Workbench::complain(const QString& sentence) {
+    log(sentence);
+    emit complaint(sentence);
+}
+
+}  // namespace asperity::studio
