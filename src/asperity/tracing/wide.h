@@ -38,10 +38,6 @@ inline int vertex_y(std::int32_t packed) {
     return packed >> 16;
 }
 
-inline std::int32_t add_vertices(std::int32_t a, std::int32_t b) {
-    return pack_vertex(vertex_x(a) + vertex_x(b), vertex_y(a) + vertex_y(b));
-}
-
 /// Directions of travel, unit length, and what every step needs of them.
 struct Directions {
     PerPath<float> x, y, z;

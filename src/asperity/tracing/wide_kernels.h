@@ -6,7 +6,7 @@
 
 namespace asperity {
 
-/// Rhombi between two looks around, and how many looks before a path counts as stuck.
+/// Rhombi a path walks between two looks around.
 inline constexpr int kRhombiPerRound = 4;
 
 /// What a walk has hit, to be told in full later: its line is known beside the vertex `beside`.
