@@ -13,7 +13,7 @@
 #include <asperity/tracing/wide.h>
 #include <hwy/highway.h>
 
-#include <array>
+#include <type_traits>
 
 HWY_BEFORE_NAMESPACE();
 namespace asperity::HWY_NAMESPACE {
@@ -77,9 +77,6 @@ HWY_INLINE Mask first_lanes(std::size_t k, std::size_t count) {
     return hn::RebindMask(kFloat, hn::Lt(hn::Iota(kInt, static_cast<std::int32_t>(k)),
                                          all(static_cast<std::int32_t>(count))));
 }
-HWY_INLINE Floats magnitude(Floats x) {
-    return hn::Abs(x);
-}
 
 // Packed vertices
 HWY_INLINE Ints plus(Ints a, Ints b) {
@@ -91,7 +88,6 @@ HWY_INLINE Ints minus(Ints a, Ints b) {
 HWY_INLINE Ints smaller(Ints a, Ints b) {
     return hn::BitCast(kInt, hn::Min(hn::BitCast(kHalf, a), hn::BitCast(kHalf, b)));
 }
-HWY_INLINE Ints times(std::int32_t n, Ints a) = delete;
 /// n times the vertex `a`, |n a| < 2^15.
 HWY_INLINE Ints times(Ints n, Ints a) {
     const Ints twice = hn::Or(hn::And(n, all(0xffff)), hn::ShiftLeft<16>(n));
@@ -115,7 +111,7 @@ HWY_INLINE Ints index_of(Ints vertex, std::int32_t pitch) {
 #endif
 }
 
-/// Sixteen-bit halves of each block, from several 64-bit words: what the gathers below share.
+/// fetch(index), lane by lane; it returns a float or an integer of type T.
 template <class T, class Fetch>
 HWY_INLINE auto gather_by_lane(Ints index, Fetch fetch) {
 #if HWY_TARGET == HWY_AVX2
@@ -127,9 +123,12 @@ HWY_INLINE auto gather_by_lane(Ints index, Fetch fetch) {
     const std::int64_t i45 = _mm_cvtsi128_si64(high), i67 = _mm_extract_epi64(high, 1);
     const auto first = [&](std::int64_t pair) { return fetch(static_cast<std::int32_t>(pair)); };
     const auto second = [&](std::int64_t pair) { return fetch(pair >> 32); };
-    if constexpr (sizeof(T) == 4) {
+    if constexpr (std::is_same_v<T, float>) {
         return Floats{_mm256_setr_ps(first(i01), second(i01), first(i23), second(i23), first(i45),
                                      second(i45), first(i67), second(i67))};
+    } else if constexpr (sizeof(T) == 4) {
+        return Ints{_mm256_setr_epi32(first(i01), second(i01), first(i23), second(i23), first(i45),
+                                      second(i45), first(i67), second(i67))};
     } else {
         __m128i bytes = _mm_cvtsi32_si128(first(i01));
         bytes = _mm_insert_epi8(bytes, second(i01), 1);
@@ -144,7 +143,7 @@ HWY_INLINE auto gather_by_lane(Ints index, Fetch fetch) {
 #else
     alignas(64) std::int32_t at[kLanes];
     hn::Store(index, kInt, at);
-    using Out = std::conditional_t<sizeof(T) == 4, float, std::int32_t>;
+    using Out = std::conditional_t<std::is_same_v<T, float>, float, std::int32_t>;
     alignas(64) Out out[kLanes];
     for (std::size_t lane = 0; lane < hn::Lanes(kFloat); ++lane) out[lane] = fetch(at[lane]);
     return hn::Load(hn::Rebind<Out, FloatTag>(), out);

@@ -99,21 +99,23 @@ void LaunchSideBySide(const LaunchPlace& place, LaunchLine& line, int i, int j, 
 
 /// Looks up the triangles that were hit, and appends them to `hits`.
 void IdentifyLaunched(const LaunchHits& launched, const LaunchLine& line, TriangleHits& hits) {
-    static_assert(sizeof(LaunchLine::Triangle) == 4 * sizeof(float));
-    const float* triangles = &line.triangles()->side - 1;  // corner, side, w, z
+    const LaunchLine::Triangle* triangles = line.triangles();
     const Floats du = all(static_cast<float>(line.du())), dv = all(static_cast<float>(line.dv()));
     const Floats k_x = all(static_cast<float>(line.k_x())),
                  k_y = all(static_cast<float>(line.k_y()));
     for (std::size_t k = 0; k < launched.count; k += kLanes) {
-        const Ints at =
-            hn::ShiftLeft<2>(only(first_lanes(k, launched.count), load(launched.triangle, k)));
+        const Ints at = only(first_lanes(k, launched.count), load(launched.triangle, k));
         const auto append = [&](auto value, auto& to) HWY_ATTR {
             hn::StoreU(value, hn::DFromV<decltype(value)>(), to.values + hits.count + k);
         };
-        append(plus(load(launched.cell, k), hn::BitCast(kInt, gather(triangles, at))), hits.corner);
-        append(gather(triangles + 1, at), hits.side);
-        append(gather(triangles + 2, at), hits.w);
-        append(gather(triangles + 3, at), hits.z);
+        const auto fetch = [&](auto field) HWY_ATTR {
+            using Field = std::remove_cvref_t<decltype(triangles->*field)>;
+            return gather_by_lane<Field>(at, [=](std::int64_t n) { return triangles[n].*field; });
+        };
+        append(plus(load(launched.cell, k), fetch(&LaunchLine::Triangle::corner)), hits.corner);
+        append(fetch(&LaunchLine::Triangle::side), hits.side);
+        append(fetch(&LaunchLine::Triangle::w), hits.w);
+        append(fetch(&LaunchLine::Triangle::z), hits.z);
         append(du, hits.du);
         append(dv, hits.dv);
         append(k_x, hits.k_x);

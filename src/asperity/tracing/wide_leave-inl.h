@@ -91,20 +91,56 @@ void PartFree(const WideGrid& grid, FacetPoints& points, Directions& directions,
                         HWY_ATTR { part_free_on(ground, points, directions, escapes); });
 }
 
-/// Sets every path onto its strip of rhombi. Paths start on their facets, or over them at the
-/// heights `start_height`.
+/// The two steps from a rhombus to the next: as vertices, across the line and in height.
 ///
-/// The picture is turned by half a turn where du < 0. Then du >= 0, and the edges a path crosses
-/// every second time are the diagonals (dv >= 0), the x lines (-du <= dv < 0) or the y lines (dv <
-/// -du). Two of them and what lies between are a rhombus; the next edge of the kind lies one of two
-/// steps ahead, step_x or step_y.
+/// With du >= 0 the edges a path crosses every second time are the diagonals (dv >= 0), the x lines
+/// (-du <= dv < 0) or the y lines (dv < -du). Two of them and what lies between are a rhombus; the
+/// next edge of the kind lies one of two steps ahead, step_x or step_y.
+struct Steps {
+    Mask by_diagonals, by_rows;
+    Ints step_x, step_y;
+    Floats w_x, w_y, z_x, z_y;
+};
+HWY_INLINE Steps steps_of(const Line& line) {
+    const Ints v10 = all(pack_vertex(1, 0)), v01 = all(pack_vertex(0, 1)),
+               v1m = all(pack_vertex(1, -1)), v0m = all(pack_vertex(0, -1));
+    const Floats du = line.du, dv = line.dv, k_x = line.k_x, k_y = line.k_y;
+    const Floats sum = hn::Add(du, dv), k_diff = hn::Sub(k_x, k_y), zero = hn::Zero(kFloat);
+    Steps s;
+    const Mask diagonals = s.by_diagonals = hn::Ge(dv, zero);
+    const Mask rows = s.by_rows = hn::AndNot(diagonals, hn::Lt(sum, zero));
+    s.step_x = select(diagonals, v10, select(rows, v0m, v1m));
+    s.step_y = select(diagonals, v01, select(rows, v1m, v10));
+    s.w_x = hn::Neg(select(diagonals, dv, select(rows, du, sum)));
+    s.w_y = select(diagonals, du, select(rows, hn::Neg(sum), hn::Neg(dv)));
+    s.z_x = select(diagonals, k_x, select(rows, hn::Neg(k_y), k_diff));
+    s.z_y = select(diagonals, k_y, select(rows, k_diff, k_x));
+    return s;
+}
+
+/// Vertex A of the first rhombus, left of the path; B = A + step_x - step_y lies right of it. In
+/// the cell of the facet, as a vertex and in numbers; `lower`: the facet is the lower one.
+struct FirstVertex {
+    Ints in_cell;
+    Floats u, v;
+};
+HWY_INLINE FirstVertex first_vertex(const Steps& s, Mask lower) {
+    const Floats one = all(1.0f);
+    const Ints v10 = all(pack_vertex(1, 0)), v01 = all(pack_vertex(0, 1)),
+               v11 = all(pack_vertex(1, 1));
+    return {
+        select(lower, select(s.by_rows, v10, v01), select(s.by_diagonals, v01, v11)),
+        select(lower, hn::IfThenElseZero(s.by_rows, one), hn::IfThenZeroElse(s.by_diagonals, one)),
+        hn::IfThenZeroElse(hn::And(lower, s.by_rows), one)};
+}
+
+/// Sets every path onto its strip of rhombi. Paths start on their facets, or over them at the
+/// heights `start_height`. The picture is turned by half a turn where du < 0.
 template <class GroundT>
 void set_out_on(const GroundT& ground, const FacetPoints& points, const Directions& directions,
                 const PerPath<float>* start_height, Walkers& walkers) {
     const Floats zero = hn::Zero(kFloat), one = all(1.0f);
-    const Ints v10 = all(pack_vertex(1, 0)), v01 = all(pack_vertex(0, 1)),
-               v11 = all(pack_vertex(1, 1)), v1m = all(pack_vertex(1, -1)),
-               v0m = all(pack_vertex(0, -1)), nothing = hn::Zero(kInt);
+    const Ints v11 = all(pack_vertex(1, 1)), nothing = hn::Zero(kInt);
     for (std::size_t k = 0; k < points.count; k += kLanes) {
         const Floats side = load(points.side, k);
         const Floats h_o = load(points.height, k);
@@ -116,53 +152,39 @@ void set_out_on(const GroundT& ground, const FacetPoints& points, const Directio
             start_height ? load(*start_height, k) : height_at(h_o, rise_u, rise_v, u_o, v_o);
 
         // Turn the picture so that du >= 0
-        const Line line = line_of(ground, x, y, z);
-        const Mask turned = hn::Lt(line.du, zero);
+        const Line given = line_of(ground, x, y, z);
+        const Mask turned = hn::Lt(given.du, zero);
         const Floats turn = select(turned, all(-1.0f), one);
-        const Floats du = hn::Mul(turn, line.du), dv = hn::Mul(turn, line.dv);
-        const Floats k_x = hn::Mul(turn, line.k_x), k_y = hn::Mul(turn, line.k_y);
+        const Line line{hn::Mul(turn, given.du), hn::Mul(turn, given.dv), hn::Mul(turn, given.k_x),
+                        hn::Mul(turn, given.k_y)};
         const Mask lower = hn::Gt(hn::Mul(turn, side), zero);
         const Floats u = select(lower, u_o, hn::Sub(one, u_o));
         const Floats v = select(lower, v_o, hn::Sub(one, v_o));
 
-        // The two steps, as vertices, across the line and in height
-        const Mask by_diagonals = hn::Ge(dv, zero);
-        const Mask by_rows = hn::AndNot(by_diagonals, hn::Lt(hn::Add(du, dv), zero));
-        const Floats sum = hn::Add(du, dv), k_diff = hn::Sub(k_x, k_y);
-        const Ints step_x = select(by_diagonals, v10, select(by_rows, v0m, v1m));
-        const Ints step_y = select(by_diagonals, v01, select(by_rows, v1m, v10));
-        const Floats w_x = hn::Neg(select(by_diagonals, dv, select(by_rows, du, sum)));
-        const Floats w_y = select(by_diagonals, du, select(by_rows, hn::Neg(sum), hn::Neg(dv)));
-        const Floats z_x = select(by_diagonals, k_x, select(by_rows, hn::Neg(k_y), k_diff));
-        const Floats z_y = select(by_diagonals, k_y, select(by_rows, k_diff, k_x));
-
-        // Vertex A of the rhombus, left of the path; B = A + step_x - step_y lies right of it
-        const Ints a_in_cell =
-            select(lower, select(by_rows, v10, v01), select(by_diagonals, v01, v11));
-        const Floats a_u =
-            select(lower, hn::IfThenElseZero(by_rows, one), hn::IfThenZeroElse(by_diagonals, one));
-        const Floats a_v = hn::IfThenZeroElse(hn::And(lower, by_rows), one);
-        const Floats w = hn::Sub(hn::Mul(du, hn::Sub(a_v, v)), hn::Mul(dv, hn::Sub(a_u, u)));
-        const Floats w_ab = hn::Sub(w_x, w_y);
-        const Floats z_a =
-            hn::Add(here, hn::Add(hn::Mul(k_x, hn::Sub(a_u, u)), hn::Mul(k_y, hn::Sub(a_v, v))));
+        // Where A lies beside the path, and how high the surface is at A and B
+        const Steps s = steps_of(line);
+        const FirstVertex a = first_vertex(s, lower);
+        const Floats a_u = hn::Sub(a.u, u), a_v = hn::Sub(a.v, v);
+        const Floats w = hn::Sub(hn::Mul(line.du, a_v), hn::Mul(line.dv, a_u));
+        const Floats z_a = hn::Add(here, hn::Add(hn::Mul(line.k_x, a_u), hn::Mul(line.k_y, a_v)));
         const Floats h_x = hn::Add(h_o, rise_u), h_y = hn::Add(h_o, rise_v);
-        const Floats h_ahead = select(by_rows, h_x, h_y), h_back = select(by_diagonals, h_x, h_o);
+        const Floats h_ahead = select(s.by_rows, h_x, h_y),
+                     h_back = select(s.by_diagonals, h_x, h_o);
         const Ints cell = cell_of(load(points.corner, k), side);
-        const Mask second = hn::Xor(lower, hn::Or(by_diagonals, by_rows));
+        const Mask second = hn::Xor(lower, hn::Or(s.by_diagonals, s.by_rows));
 
-        store(plus(cell, select(turned, minus(v11, a_in_cell), a_in_cell)), walkers.a, k);
-        store(select(turned, minus(nothing, step_x), step_x), walkers.step_x, k);
-        store(select(turned, minus(nothing, step_y), step_y), walkers.step_y, k);
-        store(clamp_between(w, w_ab), walkers.w, k);
-        store(w_x, walkers.w_x, k);
-        store(w_y, walkers.w_y, k);
+        store(plus(cell, select(turned, minus(v11, a.in_cell), a.in_cell)), walkers.a, k);
+        store(select(turned, minus(nothing, s.step_x), s.step_x), walkers.step_x, k);
+        store(select(turned, minus(nothing, s.step_y), s.step_y), walkers.step_y, k);
+        store(clamp_between(w, hn::Sub(s.w_x, s.w_y)), walkers.w, k);
+        store(s.w_x, walkers.w_x, k);
+        store(s.w_y, walkers.w_y, k);
         store(z_a, walkers.z, k);
-        store(z_x, walkers.z_x, k);
-        store(z_y, walkers.z_y, k);
+        store(s.z_x, walkers.z_x, k);
+        store(s.z_y, walkers.z_y, k);
         store(hn::Sub(select(lower, h_ahead, h_back), z_a), walkers.g_a, k);
-        store(hn::Sub(select(lower, h_back, h_ahead), hn::Add(z_a, hn::Sub(z_x, z_y))), walkers.g_b,
-              k);
+        store(hn::Sub(select(lower, h_back, h_ahead), hn::Add(z_a, hn::Sub(s.z_x, s.z_y))),
+              walkers.g_b, k);
         store(z, walkers.climb, k);
         store(load(directions.level, k), walkers.level, k);
         store(hn::IfThenElseZero(second, all(-0.0f)), walkers.spared, k);

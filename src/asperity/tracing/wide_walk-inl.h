@@ -102,7 +102,7 @@ HWY_INLINE void step(const GroundT& ground, Strip& s, FirstHit& first, Floats sp
 template <class GroundT>
 HWY_INLINE Mask leap(const GroundT& ground, Strip& s, Mask may, Floats rise, Floats climb,
                      Floats per_w) {
-    const Floats zero = hn::Zero(kFloat), one = all(1.0f);
+    const Floats one = all(1.0f);
     // Length of path on which the clearance is used up, short of rounding
     const Floats clearance = hn::Mul(s.above, per_w);
     const Floats closing = hn::Max(hn::Sub(rise, climb), all(1e-9f));
@@ -126,13 +126,119 @@ HWY_INLINE Mask leap(const GroundT& ground, Strip& s, Mask may, Floats rise, Flo
     const Floats w = hn::Add(s.w_a, hn::Add(hn::Mul(n_x, s.w_x), hn::Mul(n_y, s.w_y)));
     const Floats z = hn::Add(s.z_a, hn::Add(hn::Mul(n_x, s.z_x), hn::Mul(n_y, s.z_y)));
     s.a = select(far, a, s.a);
-    s.w_a = select(far, hn::Min(hn::Max(w, zero), hn::Mul(s.w_ab, all(-0.9999999f))), s.w_a);
+    s.w_a = select(far, clamp_between(w, s.w_ab), s.w_a);
     s.w_b = hn::Add(s.w_a, s.w_ab);
     s.z_a = select(far, z, s.z_a);
     s.g_a = select(far, hn::Sub(ground.height(a), z), s.g_a);
     s.g_b = select(far, hn::Sub(ground.height(plus(a, s.step_ab)), hn::Add(z, s.z_ab)), s.g_b);
     s.above = select(far, Strip::at_edge(s.g_a, s.w_a, s.g_b, s.w_b), s.above);
     return far;
+}
+
+/// What paths carry along beside their place on the strip.
+struct Bound {
+    Floats climb, level;
+    Ints sector, ray;
+};
+
+/// A triangle that was hit, the second of the rhombus at `a` or the first, and the line of the path
+/// beside a vertex.
+struct Fall {
+    Ints a;
+    Floats in_second;
+    Ints beside;
+    Floats w, z;
+};
+
+/// Appends the lanes that have hit.
+HWY_INLINE void pack_hits(Mask hit, const Strip& s, const Fall& fall, Ints ray, RawHits& hits) {
+    if (hn::AllFalse(kFloat, hit)) return;
+    const Packer pack(hit);
+    pack(fall.a, hits.a, hits.count);
+    pack(s.step_x, hits.step_x, hits.count);
+    pack(s.step_y, hits.step_y, hits.count);
+    pack(fall.beside, hits.beside, hits.count);
+    pack(fall.in_second, hits.in_second, hits.count);
+    pack(fall.w, hits.w, hits.count);
+    pack(fall.z, hits.z, hits.count);
+    pack(ray, hits.ray, hits.count);
+    hits.count += pack.count;
+}
+
+/// What paths see when they look around: which are out, above everything or beyond the horizon.
+struct Outlook {
+    Mask out;
+    Floats rise;      ///< the surface ahead rises no more than this per length of path
+    Floats per_w;     ///< lengths of path, seen from above, per distance between A and B
+    Floats beside_a;  ///< of the way from A to B
+    Floats here;      ///< height of the path
+};
+
+/// Looks around, and brings the strip back to the first tile.
+template <class GroundT>
+HWY_INLINE Outlook look_around(const GroundT& ground, Strip& s, const Bound& bound, Mask valid,
+                               Mask alive) {
+    Outlook look;
+    look.per_w = hn::Div(all(1.0f), hn::Sub(s.w_a, s.w_b));
+    look.beside_a = hn::Mul(s.w_a, look.per_w);
+    look.here = hn::Add(s.z_a, hn::Mul(look.beside_a, s.z_ab));
+    Ints cell = smaller(s.a, plus(s.a, s.step_ab));
+    Mask out = hn::And(hn::Ge(bound.climb, hn::Zero(kFloat)), hn::Ge(look.here, ground.max_height));
+    if (ground.periodic) {
+        s.a = ground.wrap(s.a);
+        cell = ground.wrap(cell);
+    } else {
+        const Mask beyond = ground.outside(cell);
+        out = hn::Or(out, beyond);
+        cell = only(hn::AndNot(beyond, valid), cell);
+    }
+    Floats slope = ground.steepest;
+    if (ground.leaps_pay) slope = hn::Min(ground.horizon(only(alive, cell), bound.sector), slope);
+    look.rise = hn::Mul(slope, bound.level);
+    look.out = hn::And(alive, hn::Or(out, hn::Gt(bound.climb, look.rise)));
+    return look;
+}
+
+/// Appends the lanes that are out, and over finite patches where they are.
+template <class GroundT>
+HWY_INLINE void pack_leavers(const GroundT& ground, const Strip& s, const Outlook& look, Ints ray,
+                             Leavers& leavers) {
+    if (hn::AllFalse(kFloat, look.out)) return;
+    const Packer pack(look.out);
+    pack(ray, leavers.ray, leavers.count);
+    if (!ground.periodic) {
+        const Ints b = plus(s.a, s.step_ab);
+        const auto between = [&](Ints at_a, Ints at_b) HWY_ATTR {
+            return hn::Add(hn::ConvertTo(kFloat, at_a),
+                           hn::Mul(look.beside_a, hn::ConvertTo(kFloat, hn::Sub(at_b, at_a))));
+        };
+        pack(between(x_of(s.a), x_of(b)), leavers.at_x, leavers.count);
+        pack(between(y_of(s.a), y_of(b)), leavers.at_y, leavers.count);
+        pack(look.here, leavers.at_z, leavers.count);
+    }
+    leavers.count += pack.count;
+}
+
+/// Writes the lanes that are still under way to `at`; returns how many.
+HWY_INLINE std::size_t pack_walkers(Mask going, const Strip& s, const Bound& bound,
+                                    Walkers& walkers, std::size_t at) {
+    const Packer pack(going);
+    pack(s.a, walkers.a, at);
+    pack(s.step_x, walkers.step_x, at);
+    pack(s.step_y, walkers.step_y, at);
+    pack(s.w_a, walkers.w, at);
+    pack(s.w_x, walkers.w_x, at);
+    pack(s.w_y, walkers.w_y, at);
+    pack(s.z_a, walkers.z, at);
+    pack(s.z_x, walkers.z_x, at);
+    pack(s.z_y, walkers.z_y, at);
+    pack(s.g_a, walkers.g_a, at);
+    pack(s.g_b, walkers.g_b, at);
+    pack(bound.climb, walkers.climb, at);
+    pack(bound.level, walkers.level, at);
+    pack(bound.sector, walkers.sector, at);
+    pack(bound.ray, walkers.ray, at);
+    return pack.count;
 }
 
 /// Where a round begins.
@@ -142,26 +248,12 @@ enum class Start { OnFacet, InTheAir, UnderWay };
 /// still under way.
 template <Start kStart, int kSteps, class GroundT>
 void walk_round(const GroundT& ground, Walkers& walkers, RawHits& hits, Leavers& leavers) {
-    const Floats zero = hn::Zero(kFloat), one = all(1.0f);
+    const Floats zero = hn::Zero(kFloat);
     std::size_t kept = 0;
     for (std::size_t k = 0; k < walkers.count; k += kLanes) {
         const Mask valid = first_lanes(k, walkers.count);
         Strip s(walkers, k, valid);
         const Ints ray = only(valid, load(walkers.ray, k));
-        const auto pack_hits = [&](Mask hit, Ints a, Floats in_second, Ints beside, Floats w,
-                                   Floats z) HWY_ATTR {
-            if (hn::AllFalse(kFloat, hit)) return;
-            const Packer pack(hit);
-            pack(a, hits.a, hits.count);
-            pack(s.step_x, hits.step_x, hits.count);
-            pack(s.step_y, hits.step_y, hits.count);
-            pack(beside, hits.beside, hits.count);
-            pack(in_second, hits.in_second, hits.count);
-            pack(w, hits.w, hits.count);
-            pack(z, hits.z, hits.count);
-            pack(ray, hits.ray, hits.count);
-            hits.count += pack.count;
-        };
 
         // Walk, and remember the first triangle that was hit
         const Ints a0 = s.a;
@@ -170,71 +262,24 @@ void walk_round(const GroundT& ground, Walkers& walkers, RawHits& hits, Leavers&
         step(ground, s, first, kStart == Start::OnFacet ? load(walkers.spared, k) : zero);
         for (int n = 1; n < kSteps; ++n) step(ground, s, first, zero);
         const Mask hit = hn::And(valid, negative(first.hit));
-        pack_hits(hit, first.a, first.in_second, a0, w0, z0);
+        pack_hits(hit, s, {first.a, first.in_second, a0, w0, z0}, ray, hits);
 
-        // Out, above everything or beyond the horizon?
-        const Floats climb = load(walkers.climb, k), level = load(walkers.level, k);
-        const Ints sector = only(valid, load(walkers.sector, k));
+        // Out?
         const Mask alive = hn::AndNot(hit, valid);
-        const Floats per_w = hn::Div(one, hn::Sub(s.w_a, s.w_b));
-        const Floats beside_a = hn::Mul(s.w_a, per_w);
-        const Floats here = hn::Add(s.z_a, hn::Mul(beside_a, s.z_ab));
-        Ints cell = smaller(s.a, plus(s.a, s.step_ab));
-        Mask out = hn::And(hn::Ge(climb, zero), hn::Ge(here, ground.max_height));
-        if (ground.periodic) {
-            s.a = ground.wrap(s.a);
-            cell = ground.wrap(cell);
-        } else {
-            const Mask beyond = ground.outside(cell);
-            out = hn::Or(out, beyond);
-            cell = only(hn::AndNot(beyond, valid), cell);
-        }
-        Floats slope = ground.steepest;
-        if (ground.leaps_pay) slope = hn::Min(ground.horizon(only(alive, cell), sector), slope);
-        const Floats rise = hn::Mul(slope, level);
-        out = hn::And(alive, hn::Or(out, hn::Gt(climb, rise)));
-        if (!hn::AllFalse(kFloat, out)) {
-            const Packer pack(out);
-            pack(ray, leavers.ray, leavers.count);
-            if (!ground.periodic) {
-                const Ints b = plus(s.a, s.step_ab);
-                const auto between = [&](Ints at_a, Ints at_b) HWY_ATTR {
-                    return hn::Add(hn::ConvertTo(kFloat, at_a),
-                                   hn::Mul(beside_a, hn::ConvertTo(kFloat, hn::Sub(at_b, at_a))));
-                };
-                pack(between(x_of(s.a), x_of(b)), leavers.at_x, leavers.count);
-                pack(between(y_of(s.a), y_of(b)), leavers.at_y, leavers.count);
-                pack(here, leavers.at_z, leavers.count);
-            }
-            leavers.count += pack.count;
-        }
+        const Bound bound{load(walkers.climb, k), load(walkers.level, k),
+                          only(valid, load(walkers.sector, k)), ray};
+        const Outlook look = look_around(ground, s, bound, valid, alive);
+        pack_leavers(ground, s, look, ray, leavers);
 
         // Leap ahead; the edge landed at is tested like any other
-        Mask going = hn::AndNot(out, alive);
+        Mask going = hn::AndNot(look.out, alive);
         if (ground.leaps_pay) {
-            const Mask leapt = leap(ground, s, going, rise, climb, per_w);
+            const Mask leapt = leap(ground, s, going, look.rise, bound.climb, look.per_w);
             const Mask fell = hn::And(leapt, hn::Lt(s.above, zero));
-            pack_hits(fell, s.a, zero, s.a, s.w_a, s.z_a);
+            pack_hits(fell, s, {s.a, zero, s.a, s.w_a, s.z_a}, ray, hits);
             going = hn::AndNot(fell, going);
         }
-
-        const Packer pack(going);
-        pack(s.a, walkers.a, kept);
-        pack(s.step_x, walkers.step_x, kept);
-        pack(s.step_y, walkers.step_y, kept);
-        pack(s.w_a, walkers.w, kept);
-        pack(s.w_x, walkers.w_x, kept);
-        pack(s.w_y, walkers.w_y, kept);
-        pack(s.z_a, walkers.z, kept);
-        pack(s.z_x, walkers.z_x, kept);
-        pack(s.z_y, walkers.z_y, kept);
-        pack(s.g_a, walkers.g_a, kept);
-        pack(s.g_b, walkers.g_b, kept);
-        pack(climb, walkers.climb, kept);
-        pack(level, walkers.level, kept);
-        pack(sector, walkers.sector, kept);
-        pack(ray, walkers.ray, kept);
-        kept += pack.count;
+        kept += pack_walkers(going, s, bound, walkers, kept);
     }
     walkers.count = kept;
 }
