@@ -3,10 +3,10 @@
 #include "console.h"
 #include "help.h"
 #include "options.h"
-#include "selftest_checks.h"
 #include "verbs.h"
 
 #include <asperity/core/run.h>
+#include <checks/checks.h>
 
 #include <fmt/format.h>
 
@@ -35,20 +35,20 @@ class SelftestVerb {
     }
 
     int run() const {
-        const int threads = Run(threads_.threads()).threads();
+        Run run(threads_.threads());
         int done = 0, passed = 0;
-        const CheckReport report = [&](const std::string& name, const std::string& failure) {
+        const checks::CheckReport report = [&](const std::string& name,
+                                               const std::string& failure) {
             ++done;
             if (failure.empty()) ++passed;
             if (quiet_ && failure.empty()) return;
             write_out(failure.empty() ? fmt::format("{} ... PASSED\n", name)
                                       : fmt::format("{} ... FAILED: {}\n", name, failure));
         };
-        check_textures(threads, report);
-        check_models(report);
+        checks::check_thesis(run, report);
         write_out(fmt::format("{} of {} passed: the thesis' Run Test\n", passed, done));
-        check_surfaces(threads, report);
-        check_light(threads, report);
+        checks::check_surfaces(run, report);
+        checks::check_light(run, report);
         write_out(fmt::format("{} of {} passed\n", passed, done));
         return passed == done ? 0 : 1;
     }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "selftest_checks.h"
+#include "checks.h"
+
+#include "run_check.h"
 
 #include <asperity/core/energy.h>
 #include <asperity/gonio/measure.h>
@@ -13,19 +15,9 @@
 #include <cmath>
 #include <numeric>
 
-namespace asperity::cli {
+namespace asperity::checks {
 
 namespace {
-
-Heightfield make(const SurfaceSettings& settings, int threads) {
-    Run run(threads);
-    return make_surface(settings, run);
-}
-
-Measurement measure_surface(const Heightfield& surface, const Experiment& experiment, int threads) {
-    Run run(threads);
-    return measure(surface, experiment, run);
-}
 
 /// "" when a and b agree within `tolerance`.
 std::string expect_near(const char* what, double value, double wanted, double tolerance) {
@@ -126,13 +118,12 @@ Experiment small_experiment(int resolution, std::uint64_t rays) {
 }
 
 /// Everything a flat mirror reflects goes into the cell of the mirror direction, at once.
-std::string flat_mirror_failure(int threads) {
+std::string flat_mirror_failure(Run& run) {
     Experiment experiment = small_experiment(64, 1024);
     // Off the edges of the cells.
     constexpr double kAzimuth = 10;
     experiment.illumination.phi_deg = {kAzimuth};
-    const Measurement m =
-        measure_surface(make(shape(SurfaceKind::Flat), threads), experiment, threads);
+    const Measurement m = measure(make_surface(shape(SurfaceKind::Flat), run), experiment, run);
     for (const Layer& layer : m.layers) {
         const int cell = m.detector.cell_of(from_spherical(layer.theta_i, radians(kAzimuth + 180)));
         if (layer.energy[static_cast<std::size_t>(cell)] != layer.rays * kRayEnergy) {
@@ -144,11 +135,10 @@ std::string flat_mirror_failure(int threads) {
 
 /// 45 degree walls turn light that comes down into light along the ground, and that back up: two
 /// reflections, and out the way it came.
-std::string groove_failure(int threads) {
+std::string groove_failure(Run& run) {
     Experiment experiment = small_experiment(64, 4096);
     experiment.illumination.theta_deg = {0};
-    const Measurement m =
-        measure_surface(make(shape(SurfaceKind::VGroove), threads), experiment, threads);
+    const Measurement m = measure(make_surface(shape(SurfaceKind::VGroove), run), experiment, run);
     const Layer& layer = m.layers.at(0);
     const std::uint64_t launched = layer.rays * kRayEnergy;
     if (layer.escaped_by_bounce.at(1) != launched) {
@@ -160,26 +150,28 @@ std::string groove_failure(int threads) {
     return back == launched ? std::string() : "not all energy goes straight back";
 }
 
-std::string balance_failure(const OpticsSettings& optics, int bounces, int threads) {
+std::string balance_failure(const OpticsSettings& optics, int bounces, Run& run) {
     SurfaceSettings settings = shape(SurfaceKind::Thesis);
     settings.roughness = 0.3;
     Experiment experiment = small_experiment(32, 4096);
     experiment.optics = optics;
     experiment.run.bounces = bounces;
-    const Measurement m = measure_surface(make(settings, threads), experiment, threads);
+    const Measurement m = measure(make_surface(settings, run), experiment, run);
     const bool cut = std::any_of(m.layers.begin(), m.layers.end(),
                                  [](const Layer& layer) { return layer.truncated[0] > 0; });
     if (bounces == 1 && !cut) return "nothing is truncated after one reflection";
     return energy_balance(m);
 }
 
-std::string threads_failure() {
+std::string threads_failure(const Run& run) {
     Experiment experiment = small_experiment(32, 4096);
     experiment.illumination.theta_deg = {20, 70};
     std::string first;
     for (int threads : {1, 2, 3}) {
-        const Heightfield surface = make(shape(SurfaceKind::Thesis), threads);
-        const std::string sum = io::checksum(measure_surface(surface, experiment, threads));
+        stop_here(run);
+        Run some(threads);
+        const Heightfield surface = make_surface(shape(SurfaceKind::Thesis), some);
+        const std::string sum = io::checksum(measure(surface, experiment, some));
         if (first.empty()) first = sum;
         if (sum != first) {
             return fmt::format("checksum {} with {} threads, {} with one", sum, threads, first);
@@ -190,15 +182,20 @@ std::string threads_failure() {
 
 }  // namespace
 
-void check_textures(int threads, const CheckReport& report) {
-    const Heightfield surface = make(shape(SurfaceKind::Thesis), threads);
+void check_thesis(Run& run, const CheckReport& report) {
+    check_textures(run, report);
+    check_models(run, report);
+}
+
+void check_textures(Run& run, const CheckReport& report) {
+    const Heightfield surface = make_surface(shape(SurfaceKind::Thesis), run);
     for (int resolution : {32, 64, 128, 256, 512}) {
         const Experiment experiment = small_experiment(resolution, surface.cell_count());
-        const Measurement m = measure_surface(surface, experiment, threads);
+        const Measurement m = measure(surface, experiment, run);
         for (int number = 15; number >= 1; --number) {
             const std::string name =
                 fmt::format("Texture layer {}, {} x {}", number, resolution, resolution);
-            run_check(report, name, [&]() -> std::string {
+            run_check(run, report, name, [&]() -> std::string {
                 const auto layer = std::find_if(m.layers.begin(), m.layers.end(),
                                                 [&](const Layer& l) { return l.number == number; });
                 if (layer == m.layers.end()) return "the layer is missing";
@@ -208,35 +205,35 @@ void check_textures(int threads, const CheckReport& report) {
     }
 }
 
-void check_surfaces(int threads, const CheckReport& report) {
+void check_surfaces(Run& run, const CheckReport& report) {
     const auto figures = [&](const SurfaceSettings& settings) {
-        return statistics(make(settings, threads), threads);
+        return statistics(make_surface(settings, run), run);
     };
-    run_check(report, "Surface flat: no height, no slope", [&] {
+    run_check(run, report, "Surface flat: no height, no slope", [&] {
         const SurfaceStatistics s = figures(shape(SurfaceKind::Flat));
         return first_of({expect_near("RMS height", s.rms_height, 0, 0),
                          expect_near("RMS gradient", s.rms_gradient, 0, 0),
                          expect_near("area ratio", s.area_ratio, 1, 0)});
     });
-    run_check(report, "Surface vgroove 45: slopes +-1, area sqrt 2", [&] {
+    run_check(run, report, "Surface vgroove 45: slopes +-1, area sqrt 2", [&] {
         const SurfaceStatistics s = figures(shape(SurfaceKind::VGroove));
         return first_of({expect_near("RMS slope x", s.rms_slope_x, 1, 1e-6),
                          expect_near("RMS slope y", s.rms_slope_y, 0, 0),
                          expect_near("mean tilt", s.mean_tilt_deg, 45, 1e-5),
                          expect_near("area ratio", s.area_ratio, std::sqrt(2.0), 1e-6)});
     });
-    run_check(report, "Surface pyramids 30: every facet tilts 30 degrees", [&] {
+    run_check(run, report, "Surface pyramids 30: every facet tilts 30 degrees", [&] {
         const SurfaceStatistics s = figures(shape(SurfaceKind::Pyramids, 30));
         return first_of({expect_near("mean tilt", s.mean_tilt_deg, 30, 1e-4),
                          expect_near("largest tilt", s.max_tilt_deg, 30, 1e-4),
                          expect_near("mean slope x", s.mean_slope_x, 0, 1e-9)});
     });
-    run_check(report, "Surface gaussian: realised alpha is the asked one", [&] {
+    run_check(run, report, "Surface gaussian: realised alpha is the asked one", [&] {
         SurfaceSettings settings = shape(SurfaceKind::Gaussian);
         settings.size = 128;
         return expect_near("alpha", figures(settings).rms_gradient, settings.alpha_x, 1e-4);
     });
-    run_check(report, "Surface thesis: heights within 0 and 10 x roughness", [&] {
+    run_check(run, report, "Surface thesis: heights within 0 and 10 x roughness", [&] {
         const SurfaceSettings settings = shape(SurfaceKind::Thesis);
         const SurfaceStatistics s = figures(settings);
         const double top = 10 * settings.roughness;
@@ -247,22 +244,24 @@ void check_surfaces(int threads, const CheckReport& report) {
     });
 }
 
-void check_light(int threads, const CheckReport& report) {
-    run_check(report, "Flat mirror: all energy in the mirror's cell, 15 layers",
-              [&] { return flat_mirror_failure(threads); });
-    run_check(report, "Groove of 45 degrees: straight back after two reflections",
-              [&] { return groove_failure(threads); });
-    run_check(report, "Energy, perfect mirrors: launched = escaped + absorbed + truncated",
-              [&] { return balance_failure({}, 16, threads); });
-    run_check(report, "Energy, one reflection: launched = escaped + absorbed + truncated",
-              [&] { return balance_failure({}, 1, threads); });
-    run_check(report, "Energy, gold: launched = escaped + absorbed + truncated, per channel", [&] {
-        OpticsSettings gold;
-        gold.fresnel = FresnelKind::Conductor;
-        gold.material = "Au";
-        return balance_failure(gold, 16, threads);
-    });
-    run_check(report, "One checksum with 1, 2 and 3 threads", [] { return threads_failure(); });
+void check_light(Run& run, const CheckReport& report) {
+    run_check(run, report, "Flat mirror: all energy in the mirror's cell, 15 layers",
+              [&] { return flat_mirror_failure(run); });
+    run_check(run, report, "Groove of 45 degrees: straight back after two reflections",
+              [&] { return groove_failure(run); });
+    run_check(run, report, "Energy, perfect mirrors: launched = escaped + absorbed + truncated",
+              [&] { return balance_failure({}, 16, run); });
+    run_check(run, report, "Energy, one reflection: launched = escaped + absorbed + truncated",
+              [&] { return balance_failure({}, 1, run); });
+    run_check(run, report, "Energy, gold: launched = escaped + absorbed + truncated, per channel",
+              [&] {
+                  OpticsSettings gold;
+                  gold.fresnel = FresnelKind::Conductor;
+                  gold.material = "Au";
+                  return balance_failure(gold, 16, run);
+              });
+    run_check(run, report, "One checksum with 1, 2 and 3 threads",
+              [&] { return threads_failure(run); });
 }
 
-}  // namespace asperity::cli
+}  // namespace asperity::checks

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The thesis' checks of "Load model from file": a small and a large model, read from files.
-#include "selftest_checks.h"
+#include "run_check.h"
 
 #include <asperity/core/error.h>
 #include <asperity/io/model_reader.h>
@@ -15,7 +15,7 @@
 #include <system_error>
 #include <vector>
 
-namespace asperity::cli {
+namespace asperity::checks {
 
 namespace {
 
@@ -64,12 +64,12 @@ std::vector<ModelStatistics> read_back(const char* name) {
     return {statistics(io::read_model(obj).model), statistics(io::read_model(ply).model)};
 }
 
-void check_model(const KnownModel& model, const CheckReport& report) {
+void check_model(const Run& run, const KnownModel& model, const CheckReport& report) {
     const auto check_count = [&](const char* what, std::uint64_t wanted,
                                  std::uint64_t ModelStatistics::*count) {
         const std::string name = fmt::format("Model loading, {} ({}): {} {} as OBJ and as PLY",
                                              model.size, model.name, wanted, what);
-        run_check(report, name, [&]() -> std::string {
+        run_check(run, report, name, [&]() -> std::string {
             for (const ModelStatistics& s : read_back(model.name)) {
                 if (s.*count != wanted) return fmt::format("{} were read", s.*count);
             }
@@ -82,9 +82,9 @@ void check_model(const KnownModel& model, const CheckReport& report) {
 
 }  // namespace
 
-void check_models(const CheckReport& report) {
-    check_model(kSmall, report);
-    check_model(kLarge, report);
+void check_models(Run& run, const CheckReport& report) {
+    check_model(run, kSmall, report);
+    check_model(run, kLarge, report);
 }
 
-}  // namespace asperity::cli
+}  // namespace asperity::checks
