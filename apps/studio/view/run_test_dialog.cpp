@@ -85,8 +85,7 @@ void RunTestDialog::begin() {
             post([this, name = QString::fromStdString(name),
                   why = QString::fromStdString(failure)] { add(name, why); });
         };
-        checks::check_textures(run.threads(), report);
-        checks::check_models(report);
+        checks::check_thesis(run, report);
         return [this] { end({}); };
     });
     show_result();
