@@ -80,20 +80,21 @@ class BareScene {
     RTCScene scene_ = nullptr;
 };
 
+Vec3f single(Vec3 v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
 /// A camera in single precision.
 struct BareCamera {
     Vec3f origin, corner, right, down;
 
     BareCamera(const Camera& camera, int size) {
         const double pixel = 2 * std::tan(0.5 * radians(camera.fov_deg)) / size;
-        const auto f = [](Vec3 v) {
-            return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-        };
-        origin = f(camera.position);
-        right = f(pixel * camera.right());
-        down = f(-pixel * camera.up);
+        origin = single(camera.position);
+        right = single(pixel * camera.right());
+        down = single(-pixel * camera.up);
         const double half = 0.5 * pixel * (size - 1);
-        corner = f(camera.forward - half * camera.right() + half * camera.up);
+        corner = single(camera.forward - half * camera.right() + half * camera.up);
     }
 };
 
@@ -103,9 +104,7 @@ Rate bare_packets(const BareScene& scene, const BareCamera& c, int size) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    const Vec3f lamp{static_cast<float>(kBenchLamp.position.x),
-                     static_cast<float>(kBenchLamp.position.y),
-                     static_cast<float>(kBenchLamp.position.z)};
+    const Vec3f lamp = single(kBenchLamp.position);
     const double begin = cpu_seconds();
     for (int tile_y = 0; tile_y < size; tile_y += kTile)
         for (int tile_x = 0; tile_x < size; tile_x += kTile)
@@ -165,9 +164,7 @@ Rate bare_singles(const BareScene& scene, const BareCamera& c, int size) {
     Rate rate;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    const Vec3f lamp{static_cast<float>(kBenchLamp.position.x),
-                     static_cast<float>(kBenchLamp.position.y),
-                     static_cast<float>(kBenchLamp.position.z)};
+    const Vec3f lamp = single(kBenchLamp.position);
     const double begin = cpu_seconds();
     for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x) {
