@@ -83,13 +83,11 @@ LaunchBatch::LaunchBatch(const Heightfield& surface, double height, const Incide
 }
 
 LaunchRow LaunchBatch::row(std::uint64_t k) const {
-    // Rows are as long as each other but for one point, and as far apart
     const std::uint64_t r = k * rows_ / rays_;
-    const auto begin_of = [&](std::uint64_t row) { return (row * rays_ + rows_ - 1) / rows_; };
-    const std::uint64_t begin = begin_of(r), within = k - begin;
+    const std::uint64_t within = k - row_begin(r);
     LaunchRow row;
-    row.first = k;
-    row.count = begin_of(r + 1) - k;
+    row.count = row_begin(r + 1) - k;
+    // Rows are as far apart as each other
     row.j = split(static_cast<std::uint64_t>((Wide{r} << 64) / rows_) + shift_.y, cells_y_, row.v);
     // The golden ratio of a cell from row to row; a row shorter than the tile begins elsewhere, too
     row.u = to_unit(shift_.x + r * kGoldenRatio);
@@ -101,7 +99,6 @@ LaunchRow LaunchBatch::row(std::uint64_t k) const {
 
 LaunchBatch::Point LaunchBatch::stratified_point(std::uint64_t k) const {
     // Row `row` holds the points [begin, end) and that share of the tile's depth: strata are equal.
-    const auto row_begin = [&](std::uint64_t row) { return (row * rays_ + rows_ - 1) / rows_; };
     const std::uint64_t row = k * rows_ / rays_;
     const std::uint64_t begin = row_begin(row), count = row_begin(row + 1) - begin;
     const auto xi = random_.uniform2(first_ + k, kPosition);

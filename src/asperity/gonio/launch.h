@@ -32,7 +32,7 @@ struct Launch {
 struct LaunchRow {
     std::int32_t i = 0, j = 0;
     double u = 0, v = 0;
-    std::uint64_t first = 0, count = 0;  ///< rays [first, first + count) of the batch
+    std::uint64_t count = 0;  ///< of points
 };
 
 /// Launch points of one batch: spread over the tile at the height of the highest point, which is
@@ -64,6 +64,8 @@ class LaunchBatch {
     struct Point {
         std::uint64_t x = 0, y = 0;
     };
+    /// The first ray of a row; rows are as long as each other but for one.
+    std::uint64_t row_begin(std::uint64_t row) const { return (row * rays_ + rows_ - 1) / rows_; }
     Point stratified_point(std::uint64_t k) const;
     Point random_point(std::uint64_t k) const;
 
