@@ -211,6 +211,26 @@ class Config(ProgramTest):
         self.assertEqual(self.json_of("info", "a.asperity")["checksum"],
                          self.json_of("info", "b.asperity")["checksum"])
 
+    def test_sections_belong_to_other_programs(self):
+        self.passes("simulate", "--surface", "ggx", *SMALL, "--seed", 9, "-o", "a.asperity")
+        with open("session.txt", "w", encoding="utf-8") as file:
+            file.write(self.passes("info", "a.asperity", "--config"))
+            file.write("\n[studio]\nraiz = 3\nseed = 10\nquiet = true\n\n[ other ]  # one more\n")
+        text = self.passes("simulate", "--config", "session.txt", "-o", "b.asperity")
+        self.assertNotEqual(text, "")  # that `quiet` was none of ours
+        self.assertEqual(self.json_of("info", "a.asperity")["checksum"],
+                         self.json_of("info", "b.asperity")["checksum"])
+        # Of every verb that reads a config file
+        with open("part.txt", "w", encoding="utf-8") as file:
+            file.write("[studio]\nraiz = 3\n")
+        self.passes("surface", "flat", "--size", 64, "--config", "part.txt")
+        self.passes("compare", "lambert", "lambert", "--layers", 2, "--config", "part.txt")
+        for line in ("[studio", "[]", "[Studio]", "[studio] x = 1", "[two words]", "raiz = 3"):
+            with self.subTest(line), open("session.txt", "w", encoding="utf-8") as file:
+                file.write(f"size = 64\n{line}\n[studio]\n")
+                file.flush()
+                self.fails(3, "simulate", "--config", "session.txt", saying="session.txt:2")
+
     def test_command_line_wins(self):
         with open("run.txt", "w", encoding="utf-8") as file:
             file.write("# a run\nrays = 3000\nsurface = flat\nsize = 64\ntheta = 10,20,30\n"
