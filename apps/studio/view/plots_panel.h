@@ -3,10 +3,17 @@
 
 #include "../model/workbench.h"
 
+#include "plot_make.h"
+
 #include <QImage>
+#include <QLabel>
+#include <QTimer>
 #include <QWidget>
 
 namespace asperity::studio {
+
+class PlotCanvas;
+class PlotControls;
 
 /// The plots of the current layer and of all layers, with their own controls.
 class PlotsPanel : public QWidget {
@@ -15,11 +22,33 @@ class PlotsPanel : public QWidget {
   public:
     explicit PlotsPanel(Workbench& workbench, QWidget* parent = nullptr);
 
-    /// The plot shown, at `size`.
+    /// The plot shown, at `size`, in the colours of the program.
     QImage picture(QSize size) const;
+    /// Black on white, for print.
     void copy_picture() const;
-    /// By the ending of its name: .png, .svg or .csv. Throws Error(Usage | InputOutput).
+    /// By the ending of its name: .png, .svg or .csv; pictures black on white, as large as shown.
+    /// Throws Error(Usage | InputOutput).
     void save(const QString& path) const;
+
+  protected:
+    void showEvent(QShowEvent*) override;
+
+  private:
+    void follow();
+    void refresh_soon();
+    void refresh();
+    void ask_and_save();
+    PlotSource source() const;
+    std::shared_ptr<const Plot> plot() const;
+    QSize shown_size() const;
+
+    Workbench& workbench_;
+    PlotControls* controls_;
+    PlotCanvas* canvas_;
+    QLabel* read_out_;
+    ModelCurves models_;
+    std::shared_ptr<DiscPainter> disc_painter_ = std::make_shared<DiscPainter>();
+    QTimer timer_;  ///< until the next plot may be made
 };
 
 }  // namespace asperity::studio

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plot.h"
+
+#include <QPixmap>
+#include <QWidget>
+
+#include <memory>
+
+namespace asperity::studio {
+
+/// Shows a plot, and the values under the mouse or, moved by the arrow keys, the cross hair.
+class PlotCanvas : public QWidget {
+    Q_OBJECT
+
+  public:
+    explicit PlotCanvas(QWidget* parent = nullptr);
+
+    void set_plot(std::shared_ptr<const Plot> plot);
+    QSize sizeHint() const override;
+    QSize minimumSizeHint() const override;
+
+  signals:
+    void read(const QString& text);  ///< empty: nothing there
+    void cell_chosen(int cell);      ///< by a click or Return
+
+  protected:
+    void paintEvent(QPaintEvent*) override;
+    void mouseMoveEvent(QMouseEvent* event) override;
+    void mouseReleaseEvent(QMouseEvent* event) override;
+    void leaveEvent(QEvent*) override;
+    void keyPressEvent(QKeyEvent* event) override;
+
+  private:
+    PlotStyle style_now() const;
+    void look_at(std::optional<QPointF> place);
+    void choose();
+
+    std::shared_ptr<const Plot> plot_;
+    QPixmap painted_;  ///< the plot without the cross hair; null: to be painted anew
+    PlotStyle painted_style_;
+    std::optional<QPointF> place_;
+    std::optional<PlotReading> reading_;
+};
+
+/// The plot as a picture of `size` pixels, each `scale` times as fine as the style's.
+QImage plot_image(const Plot& plot, QSize size, double scale, const PlotStyle& style);
+
+}  // namespace asperity::studio

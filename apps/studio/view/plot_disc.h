@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/gonio/detector.h>
+#include <asperity/io/layer_view.h>
+
+#include <QImage>
+
+#include <vector>
+
+namespace asperity::studio {
+
+/// Paints the hemisphere seen from above, fast enough for a layer that grows: it remembers which
+/// cells lie below which pixel, which changes with size and detector only.
+class DiscPainter {
+  public:
+    /// A disc of `pixels` across on transparent ground. A pixel shows the mean of `values`, one per
+    /// cell, at four places in it: equal areas of the disc are equal projected solid angles.
+    QImage paint(int pixels, const Detector& detector, const std::vector<double>& values,
+                 const io::ValueScale& scale, io::ColourMap map);
+
+  private:
+    void find_cells(int pixels, const Detector& detector);
+
+    int pixels_ = 0, rows_ = 0, columns_ = 0;
+    DetectorKind kind_ = DetectorKind::LatLong;
+    std::vector<int> cells_;  ///< four for each pixel; -1: off the disc
+};
+
+}  // namespace asperity::studio

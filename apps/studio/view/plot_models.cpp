@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plot_models.h"
+
+#include <asperity/brdf/albedo_by_angle.h>
+#include <asperity/brdf/cook_torrance.h>
+#include <asperity/brdf/lobe_slice.h>
+#include <asperity/brdf/microfacet.h>
+#include <asperity/core/directions.h>
+#include <asperity/core/error.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace asperity::studio {
+
+namespace {
+
+constexpr int kNormalBins = 180;   ///< half a degree each
+constexpr double kAlbedoStep = 3;  ///< degrees
+constexpr double kLeastAlpha = 1e-3, kLargestAlpha = 100;
+
+/// A plot of a lobe is the same lobe on either paper.
+PlotKind kind_of_curves(PlotKind kind) {
+    return kind == PlotKind::LobeCartesian ? PlotKind::LobePolar : kind;
+}
+
+/// A model and the channel of it to be shown.
+struct ShownModel {
+    std::unique_ptr<Brdf> brdf;
+    int channel = -1;
+};
+
+/// The models reflect as the facets of the measurement do; Cook-Torrance is a white metal.
+ShownModel make_model(std::size_t overlay, double alpha, const ModelWish& wish) {
+    if (overlay == 0) {
+        CookTorranceSettings settings;
+        settings.roughness = cook_torrance_roughness(alpha);
+        return {std::make_unique<CookTorranceBrdf>(settings), -1};
+    }
+    MicrofacetSettings settings;
+    settings.distribution = overlay == 1 ? SlopeFamily::Ggx : SlopeFamily::Beckmann;
+    settings.alpha_x = settings.alpha_y = alpha;
+    settings.optics = wish.head->experiment.optics;
+    return {std::make_unique<MicrofacetBrdf>(settings), wish.channel};
+}
+
+void require_going(const Run& run) {
+    if (!run.keep_going()) throw Error(ErrorCode::Stopped, "stopped");
+}
+
+std::vector<double> albedo_curve(const ShownModel& model, const std::vector<double>& theta_deg,
+                                 const Run& run) {
+    std::vector<double> albedo;
+    for (const double theta : theta_deg) {
+        require_going(run);
+        albedo.push_back(albedo_at(*model.brdf, radians(theta), model.channel));
+    }
+    return albedo;
+}
+
+std::vector<double> lobe_curve(const ShownModel& model, const ModelWish& wish) {
+    Layer layer;
+    layer.theta_i = wish.theta_i;
+    layer.phi_i = wish.phi_i;
+    std::vector<double> f;
+    for (const LobeSample& sample :
+         lobe_slice(*model.brdf, *wish.head, layer, model.channel).samples)
+        f.push_back(sample.f);
+    return f;
+}
+
+std::vector<double> normals_curve(std::size_t overlay, double alpha) {
+    const SlopeFamily family = overlay == 2 ? SlopeFamily::Beckmann : SlopeFamily::Ggx;
+    const double roughness = cook_torrance_roughness(alpha);
+    return normal_profile(family, overlay == 0 ? roughness * roughness : alpha, kNormalBins)
+        .density;
+}
+
+std::vector<double> abscissae(const ModelWish& wish) {
+    std::vector<double> x;
+    if (wish.kind == PlotKind::Albedo) {
+        for (double theta = 0; theta < 90; theta += kAlbedoStep) x.push_back(theta);
+    } else if (wish.kind == PlotKind::Normals) {
+        for (int t = 0; t < kNormalBins; ++t) x.push_back(90 * (t + 0.5) / kNormalBins);
+    } else {
+        const Detector& detector = wish.head->detector;
+        for (int row = detector.rows(); row-- > 0;)
+            x.push_back(-degrees(detector.theta_centre(row)));
+        for (int row = 0; row < detector.rows(); ++row)
+            x.push_back(degrees(detector.theta_centre(row)));
+    }
+    return x;
+}
+
+std::shared_ptr<const ModelValues> values_of(const ModelWish& wish,
+                                             std::shared_ptr<const NormalProfile> normals,
+                                             const Run& run) {
+    auto values = std::make_shared<ModelValues>();
+    values->wish = wish;
+    values->x = abscissae(wish);
+    if (wish.kind == PlotKind::Normals)
+        values->normals = normals ? std::move(normals)
+                                  : std::make_shared<const NormalProfile>(
+                                        normal_profile(*wish.surface, kNormalBins, run));
+    for (std::size_t k = 0; k < kOverlays; ++k) {
+        const double alpha = wish.alphas[k];
+        if (alpha == 0) continue;
+        require_going(run);
+        values->y[k] = wish.kind == PlotKind::Normals ? normals_curve(k, alpha)
+                       : wish.kind == PlotKind::Albedo
+                           ? albedo_curve(make_model(k, alpha, wish), values->x, run)
+                           : lobe_curve(make_model(k, alpha, wish), wish);
+    }
+    return values;
+}
+
+}  // namespace
+
+OverlayAlphas overlay_alphas(const PlotView& view, std::optional<double> surface_alpha) {
+    const auto alpha_of = [&](const Overlay& overlay) {
+        if (!overlay.shown) return 0.0;
+        const double alpha = view.follow_surface && surface_alpha ? *surface_alpha : overlay.alpha;
+        return std::clamp(alpha, kLeastAlpha, kLargestAlpha);
+    };
+    return {alpha_of(view.cook_torrance), alpha_of(view.ggx), alpha_of(view.beckmann)};
+}
+
+double cook_torrance_roughness(double alpha) {
+    return std::clamp(std::sqrt(alpha), 0.01, 1.0);
+}
+
+QString overlay_name(std::size_t overlay, double alpha) {
+    const auto number = [](double value) { return QString::number(value, 'g', 3); };
+    if (overlay == 0)
+        return QStringLiteral("Cook-Torrance r = ") + number(cook_torrance_roughness(alpha));
+    return (overlay == 1 ? QStringLiteral("GGX α = ") : QStringLiteral("Beckmann α = ")) +
+           number(alpha);
+}
+
+bool ModelWish::same_scene(const ModelWish& other) const {
+    return kind_of_curves(kind) == kind_of_curves(other.kind) && head == other.head &&
+           theta_i == other.theta_i && phi_i == other.phi_i && channel == other.channel &&
+           surface == other.surface;
+}
+
+ModelCurves::ModelCurves(QObject* parent)
+    : QObject(parent), background_(this, [this](const QString& sentence) {
+          emit failed(sentence);
+          serve_waiting();
+      }) {}
+
+const ModelValues* ModelCurves::find(const ModelWish& wish) const {
+    const auto found = found_.find(kind_of_curves(wish.kind));
+    if (found == found_.end() || !found->second->wish.same_scene(wish)) return nullptr;
+    return found->second.get();
+}
+
+void ModelCurves::want(const ModelWish& wish) {
+    const ModelValues* found = find(wish);
+    if (found != nullptr && found->wish.alphas == wish.alphas) {
+        waiting_.reset();
+    } else if (background_.busy()) {
+        waiting_ = wish;
+    } else {
+        start(wish);
+    }
+}
+
+void ModelCurves::start(const ModelWish& wish) {
+    const ModelValues* before = find(wish);
+    background_.start([this, wish, normals = before ? before->normals : nullptr](
+                          Run& run, const Background::Post&) {
+        const auto values = values_of(wish, normals, run);
+        return [this, values] { take(values); };
+    });
+}
+
+void ModelCurves::take(std::shared_ptr<const ModelValues> values) {
+    found_[kind_of_curves(values->wish.kind)] = std::move(values);
+    emit changed();
+    serve_waiting();
+}
+
+void ModelCurves::serve_waiting() {
+    if (!waiting_ || background_.busy()) return;
+    const ModelWish next = *waiting_;
+    waiting_.reset();
+    want(next);
+}
+
+}  // namespace asperity::studio

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "../model/background.h"
+#include "../model/settings.h"
+
+#include <asperity/brdf/normal_profile.h>
+#include <asperity/gonio/measurement.h>
+#include <asperity/surface/heightfield.h>
+
+#include <QObject>
+#include <QString>
+
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace asperity::studio {
+
+/// The analytic models of PlotView, in its order: Cook-Torrance, GGX, Beckmann.
+inline constexpr std::size_t kOverlays = 3;
+/// Widths of their slopes; 0: not shown.
+using OverlayAlphas = std::array<double, kOverlays>;
+
+/// The alphas that the settings ask for. `surface_alpha`, if there is one, is that of the surface:
+/// its rms gradient, Beckmann's alpha.
+OverlayAlphas overlay_alphas(const PlotView& view, std::optional<double> surface_alpha);
+
+/// Roughness of the thesis' Cook-Torrance model for slopes of this width: sqrt(alpha), in the range
+/// that the model takes.
+double cook_torrance_roughness(double alpha);
+
+/// "GGX α = 0.3", "Cook-Torrance r = 0.55".
+QString overlay_name(std::size_t overlay, double alpha);
+
+/// What the analytic curves of a plot depend on.
+struct ModelWish {
+    PlotKind kind = PlotKind::LobePolar;  ///< a lobe, the albedo or the normals
+    OverlayAlphas alphas{};
+    std::shared_ptr<const Measurement> head;     ///< but for the normals: detector and facets
+    double theta_i = 0, phi_i = 0;               ///< of lobes [rad]
+    int channel = -1;                            ///< -1: the mean of all
+    std::shared_ptr<const Heightfield> surface;  ///< of the normals
+
+    /// Equal but for the alphas.
+    bool same_scene(const ModelWish& other) const;
+};
+
+/// Curves of the models, found by a thread of its own.
+struct ModelValues {
+    ModelWish wish;
+    std::vector<double> x;                         ///< degrees: theta_o, theta_i or theta_m
+    std::array<std::vector<double>, kOverlays> y;  ///< f, albedo or D; empty: not shown
+    std::shared_ptr<const NormalProfile> normals;  ///< of the surface
+};
+
+/// Finds curves of models in the background and keeps the latest of each plot. A wish that comes
+/// while another is worked on waits for it, so that a slider being dragged shows on the way.
+class ModelCurves : public QObject {
+    Q_OBJECT
+
+  public:
+    explicit ModelCurves(QObject* parent = nullptr);
+
+    void want(const ModelWish& wish);
+    /// The latest of the wish's scene, whatever the alphas; null: none yet.
+    const ModelValues* find(const ModelWish& wish) const;
+
+  signals:
+    void changed();
+    void failed(const QString& sentence);
+
+  private:
+    void start(const ModelWish& wish);
+    void serve_waiting();
+    void take(std::shared_ptr<const ModelValues> values);
+
+    Background background_;
+    std::optional<ModelWish> waiting_;
+    std::map<PlotKind, std::shared_ptr<const ModelValues>> found_;
+};
+
+}  // namespace asperity::studio
