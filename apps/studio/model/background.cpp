@@ -5,11 +5,47 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdlib>
 #include <mutex>
 #include <new>
 #include <optional>
 
 namespace asperity::studio {
+
+namespace {
+
+/// Threads that were left to end on their own. The program waits for them at its very end, without
+/// its windows, for they must not run while it is taken down.
+class Stragglers {
+  public:
+    static Stragglers& all() {
+        static Stragglers stragglers;
+        return stragglers;
+    }
+    void one_more() {
+        const std::scoped_lock lock(mutex_);
+        ++count_;
+        // Called last first: before anything goes that was there when the thread was left
+        std::atexit([] { all().wait(); });
+    }
+    void one_less() {
+        const std::scoped_lock lock(mutex_);
+        --count_;
+        none_left_.notify_all();
+    }
+
+  private:
+    void wait() {
+        std::unique_lock lock(mutex_);
+        none_left_.wait_for(lock, std::chrono::seconds(20), [&] { return count_ == 0; });
+    }
+
+    std::mutex mutex_;
+    std::condition_variable none_left_;
+    int count_ = 0;
+};
+
+}  // namespace
 
 struct Background::Order {
     std::uint64_t serial = 0;
@@ -24,7 +60,7 @@ struct Background::Shared {
     QObject* owner = nullptr;  ///< null: nobody listens any more
     std::function<void(const QString&)> failed;
     std::uint64_t serial = 0;  ///< of the latest wish
-    bool busy = false, quit = false, finished = false;
+    bool busy = false, quit = false, finished = false, left_behind = false;
     std::optional<Order> next;
     std::shared_ptr<Run> running;
 
@@ -50,6 +86,8 @@ Background::~Background() {
     shared_->wake.notify_one();
     const bool ended = shared_->ended.wait_for(lock, std::chrono::milliseconds(80),
                                                [&] { return shared_->finished; });
+    shared_->left_behind = !ended;
+    if (!ended) Stragglers::all().one_more();
     lock.unlock();
     if (ended)
         thread_.join();
@@ -95,6 +133,7 @@ void Background::work(const std::shared_ptr<Shared>& shared) {
     }
     shared->finished = true;
     shared->ended.notify_one();
+    if (shared->left_behind) Stragglers::all().one_less();
 }
 
 void Background::carry_out(const std::shared_ptr<Shared>& shared, const Order& order) {
