@@ -19,6 +19,7 @@ struct Wish {
     BeginPainting begin;
     QSize full;
     bool moving = false;
+    std::uint64_t number = 0;
 };
 
 }  // namespace
@@ -43,7 +44,9 @@ class Painter::Work {
         thread_.join();
     }
 
-    void wish(Wish wish) {
+    std::uint64_t wish(Wish wish) {
+        const std::uint64_t number = ++last_number;
+        wish.number = number;
         {
             const std::lock_guard lock(mutex_);
             // A view that changes without moving, say a layer that grows, must not keep a first
@@ -52,6 +55,7 @@ class Painter::Work {
             wish_ = std::move(wish);
         }
         woken_.notify_one();
+        return number;
     }
 
     void stop() {
@@ -75,6 +79,7 @@ class Painter::Work {
     FrameRate rate;
     bool last_moving = false;
     double last_seconds = 0;
+    std::uint64_t last_number = 0;
 
   private:
     void interrupt() {
@@ -116,7 +121,7 @@ class Painter::Work {
             if (run.stop_requested()) return;
             const double seconds = now() - began;
             if (wish.moving) pacer_.took(size, seconds);
-            deliver({painting->image(), wish.full, passes, wish.moving, seconds});
+            deliver({painting->image(), wish.full, passes, wish.moving, wish.number, seconds});
         }
     }
 
@@ -182,8 +187,8 @@ Painter::Painter(QObject* parent) : QObject(parent), work_(std::make_unique<Work
 
 Painter::~Painter() = default;
 
-void Painter::paint(BeginPainting begin, QSize full, bool moving) {
-    work_->wish({std::move(begin), full.expandedTo({1, 1}), moving});
+std::uint64_t Painter::paint(BeginPainting begin, QSize full, bool moving) {
+    return work_->wish({std::move(begin), full.expandedTo({1, 1}), moving, 0});
 }
 
 void Painter::stop() {

@@ -7,6 +7,7 @@
 #include <QObject>
 #include <QSize>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -33,8 +34,9 @@ struct Frame {
     QImage image;
     QSize full;
     int passes = 0;
-    bool moving = false;  ///< made while the view was moving
-    double seconds = 0;   ///< its first pass took, or all passes so far of a still view
+    bool moving = false;     ///< made while the view was moving
+    std::uint64_t wish = 0;  ///< what Painter::paint() gave for it
+    double seconds = 0;      ///< its first pass took, or all passes so far of a still view
 };
 
 /// Paints the latest view wished for in a thread of its own.
@@ -50,7 +52,8 @@ class Painter : public QObject {
     explicit Painter(QObject* parent = nullptr);
     ~Painter() override;  ///< stops; returns within 100 ms
 
-    void paint(BeginPainting begin, QSize full, bool moving);
+    /// Gives the number of the wish, counted up; Frame::wish tells which one a frame belongs to.
+    std::uint64_t paint(BeginPainting begin, QSize full, bool moving);
     void stop();  ///< keeps the last frame
 
     /// Frames per second and milliseconds per frame over the last second of movement, or the last

@@ -66,12 +66,7 @@ Viewport::Viewport(QWidget* parent) : QWidget(parent), controller_(home_), camer
     still_timer_.setSingleShot(true);
     connect(&step_timer_, &QTimer::timeout, this, &Viewport::step);
     connect(&still_timer_, &QTimer::timeout, this, [this] { refresh(false); });
-    connect(&painter_, &Painter::frame_ready, this, [this](const Frame& frame) {
-        if (!picture_) return;
-        frame_ = frame;
-        update();
-        emit frame_shown();
-    });
+    connect(&painter_, &Painter::frame_ready, this, &Viewport::show_frame);
 }
 
 void Viewport::set_picture(Picture picture) {
@@ -81,6 +76,7 @@ void Viewport::set_picture(Picture picture) {
         return;
     }
     painter_.stop();
+    wished_.clear();
     frame_ = {};
     update();
 }
@@ -97,7 +93,19 @@ void Viewport::refresh(bool moving) {
     else
         still_timer_.stop();
     if (!picture_ || width() < 1 || height() < 1) return;
-    painter_.paint(picture_(camera_), (QSizeF(size()) * devicePixelRatioF()).toSize(), moving);
+    const std::uint64_t wish =
+        painter_.paint(picture_(camera_), (QSizeF(size()) * devicePixelRatioF()).toSize(), moving);
+    wished_.emplace_back(wish, camera_);
+}
+
+void Viewport::show_frame(const Frame& frame) {
+    if (!picture_) return;
+    while (!wished_.empty() && wished_.front().first < frame.wish) wished_.pop_front();
+    if (!wished_.empty() && wished_.front().first == frame.wish)
+        shown_camera_ = wished_.front().second;
+    frame_ = frame;
+    update();
+    emit frame_shown();
 }
 
 // The camera
@@ -254,16 +262,17 @@ void Viewport::resizeEvent(QResizeEvent* event) {
 // Places
 
 std::optional<QPointF> Viewport::project(Vec3 point) const {
-    const Vec3 to = point - camera_.position;
-    const double depth = dot(to, camera_.forward);
+    const Camera& camera = shown_camera();
+    const Vec3 to = point - camera.position;
+    const double depth = dot(to, camera.forward);
     if (!(depth > 0)) return std::nullopt;
-    const double pixel = 2 * std::tan(0.5 * radians(camera_.fov_deg)) / height();
-    return QPointF(0.5 * width() + dot(to, camera_.right()) / (depth * pixel),
-                   0.5 * height() - dot(to, camera_.up) / (depth * pixel));
+    const double pixel = 2 * std::tan(0.5 * radians(camera.fov_deg)) / height();
+    return QPointF(0.5 * width() + dot(to, camera.right()) / (depth * pixel),
+                   0.5 * height() - dot(to, camera.up) / (depth * pixel));
 }
 
 WorldRay Viewport::ray_at(QPointF place) const {
-    return PixelRays(camera_, width(), height()).at(place.x(), place.y());
+    return PixelRays(shown_camera(), width(), height()).at(place.x(), place.y());
 }
 
 // Pictures

@@ -11,8 +11,11 @@
 #include <QTimer>
 #include <QWidget>
 
+#include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace asperity::studio {
@@ -37,13 +40,16 @@ class Viewport : public QWidget {
     void refresh_overlay() { update(); }
 
     const Camera& camera() const { return camera_; }
+    /// The camera of the picture that is shown now, a little behind camera() while that moves:
+    /// lines and clicks go by it. camera() without a picture.
+    const Camera& shown_camera() const { return frame_.image.isNull() ? camera_ : shown_camera_; }
     /// Where R leads back to, and where to begin. World: y up.
     void set_home(const Orbiter& home);
     void set_camera_type(CameraType type);
     void reset_camera();
     bool is_moving() const;
 
-    /// Where a point of the world lies in the widget; none behind the camera.
+    /// Where a point of the world lies in the widget by shown_camera(); none behind it.
     std::optional<QPointF> project(Vec3 point) const;
     /// The ray through a place of the widget.
     WorldRay ray_at(QPointF place) const;
@@ -74,6 +80,7 @@ class Viewport : public QWidget {
     bool show_camera(bool moving);
     void step();
     void wake();
+    void show_frame(const Frame& frame);
     void paint_over(QPainter& painter) const;
 
     Painter painter_;
@@ -82,7 +89,8 @@ class Viewport : public QWidget {
     Frame frame_;
     Orbiter home_;
     CameraController controller_;
-    Camera camera_;
+    Camera camera_, shown_camera_;
+    std::deque<std::pair<std::uint64_t, Camera>> wished_;  ///< cameras of pictures to come
     CameraInput input_;
     QPointF pressed_at_, last_at_;
     bool dragged_ = false;  ///< the pressed mouse has moved: no click any more

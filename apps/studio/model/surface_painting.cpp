@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surface_painting.h"
+
+#include <asperity/core/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace asperity::studio {
+
+namespace {
+
+using Pixel = SurfaceBody::Pixel;
+
+constexpr Pixel kSelected = {255, 245, 190};
+constexpr float kSelectedShare = 0.85F;
+
+/// The dark round the scene where no layer is shown, and below the horizon: black but for a breath
+/// of blue at the horizon. `direction` in the world, unit length.
+Pixel darkness(Vec3 direction) {
+    const auto glow = static_cast<float>(std::exp(-9 * std::abs(direction.y)));
+    return {9 * glow, 11 * glow, 16 * glow};
+}
+
+/// Place of a sample within its pixel: the middle first, then spread evenly (Roberts 2018, "The
+/// unreasonable effectiveness of quasirandom sequences").
+std::pair<double, double> place_of_sample(int pass) {
+    const double x = 0.5 + 0.7548776662466927 * pass, y = 0.5 + 0.5698402909980532 * pass;
+    return {x - std::floor(x), y - std::floor(y)};
+}
+
+class SurfacePainting : public Painting {
+  public:
+    SurfacePainting(SurfacePicture picture, const Camera& camera, QSize size)
+        : picture_(std::move(picture)),
+          camera_(camera),
+          image_(size, QImage::Format_RGB32),
+          sums_(static_cast<std::size_t>(size.width()) * static_cast<std::size_t>(size.height())) {}
+
+    bool pass(Run& run) override {
+        body_ = picture_.body ? &picture_.body->get() : nullptr;
+        dome_ = picture_.dome ? &picture_.dome->get() : nullptr;
+        const auto [x, y] = place_of_sample(passes_);
+        // Rows are written by several threads: the picture must be ours alone by now.
+        bits_ = image_.bits();
+        if (!(body_ ? paint_with_body(x, y, run) : paint_dome(x, y, run))) return false;
+        return ++passes_ < kSurfaceSamples;
+    }
+
+    QImage image() const override { return image_; }
+
+  private:
+    bool paint_with_body(double x, double y, Run& run) {
+        const SurfaceFrame& frame = body_->frame();
+        return look_at_heightfield(
+            body_->view(), frame.to_surface(camera_), image_.width(), image_.height(), x, y, run,
+            [&](int row, std::span<const WorldRay> rays, std::span<const PatchHit> hits) {
+                add_row(row, [&](std::size_t k) {
+                    if (hits[k].part != PatchPart::None) return colour_of(rays[k], hits[k]);
+                    const Vec3 eye = frame.scale * (rays[k].origin - frame.middle);
+                    return surroundings({SurfaceFrame::direction_to_world(eye),
+                                         SurfaceFrame::direction_to_world(rays[k].direction)});
+                });
+            });
+    }
+
+    bool paint_dome(double x, double y, Run& run) {
+        const PixelRays rays(camera_, image_.width(), image_.height());
+        const auto row = [&](std::size_t k) {
+            if (run.stop_requested()) return;
+            add_row(static_cast<int>(k), [&](std::size_t column) {
+                return surroundings(
+                    rays.at(static_cast<double>(column) + x, static_cast<double>(k) + y));
+            });
+        };
+        parallel_for(static_cast<std::size_t>(image_.height()), run.threads(), row);
+        return !run.stop_requested();
+    }
+
+    Pixel colour_of(const WorldRay& ray, const PatchHit& hit) const {
+        Pixel colour = body_->colour(ray, hit, picture_.shading);
+        if (hit.part == PatchPart::Facet && picture_.selected && !picture_.selected->empty() &&
+            picture_.selected->contains({hit.i, hit.j, hit.triangle}))
+            for (std::size_t c = 0; c < 3; ++c)
+                colour[c] += kSelectedShare * (kSelected[c] - colour[c]);
+        return colour;
+    }
+
+    /// What a ray of the world sees that misses the surface.
+    Pixel surroundings(const WorldRay& ray) const {
+        const std::optional<Vec3> direction = dome_direction(ray);
+        if (!direction) return darkness(ray.direction);
+        if (!dome_ || direction->y < 0) return darkness(*direction);
+        return dome_->colour(SurfaceFrame::direction_to_surface(*direction));
+    }
+
+    /// Adds a sample to each pixel of a row, and shows the mean.
+    template <class Sample>
+    void add_row(int row, const Sample& sample) {
+        const auto width = static_cast<std::size_t>(image_.width());
+        Pixel* sums = sums_.data() + static_cast<std::size_t>(row) * width;
+        auto* line = reinterpret_cast<QRgb*>(bits_ + row * image_.bytesPerLine());
+        const float share = 1.0F / static_cast<float>(passes_ + 1);
+        for (std::size_t k = 0; k < width; ++k) {
+            const Pixel colour = sample(k);
+            for (std::size_t c = 0; c < 3; ++c) sums[k][c] += colour[c];
+            const auto level = [&](std::size_t c) {
+                return static_cast<int>(sums[k][c] * share + 0.5F);
+            };
+            line[k] = qRgb(level(0), level(1), level(2));
+        }
+    }
+
+    const SurfacePicture picture_;
+    const Camera camera_;
+    QImage image_;
+    std::vector<Pixel> sums_;
+    int passes_ = 0;
+    const SurfaceBody* body_ = nullptr;
+    const DomePicture* dome_ = nullptr;
+    uchar* bits_ = nullptr;
+};
+
+}  // namespace
+
+FacetSet::FacetSet(const std::vector<LightPath>& paths) {
+    for (const LightPath& path : paths)
+        for (const FacetId& facet : path.facets) keys_.insert(key(facet));
+}
+
+BeginPainting paint_surface(SurfacePicture picture, const Camera& camera) {
+    return [picture = std::move(picture), camera](QSize size) -> std::unique_ptr<Painting> {
+        return std::make_unique<SurfacePainting>(picture, camera, size);
+    };
+}
+
+}  // namespace asperity::studio

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surface_scene.h"
+
+#include "beam_overlay.h"
+#include "dome_overlay.h"
+#include "paths_overlay.h"
+#include "picture_labels.h"
+#include "surface_labels.h"
+
+#include <asperity/core/directions.h>
+#include <asperity/gonio/launch.h>
+
+#include <QEvent>
+#include <QKeyEvent>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace asperity::studio {
+
+namespace {
+
+constexpr int kGrowMs = 100;
+
+/// Inside the dome, behind the light of small azimuths: the lobe lies ahead, over the surface.
+Orbiter home_of_scene() {
+    Orbiter home;
+    home.target = {0, 0.55, 0};
+    home.distance = 4.6;
+    home.azimuth_deg = 62;
+    home.elevation_deg = 13;
+    home.fov_deg = 50;
+    return home;
+}
+
+bool same_look(const io::SkyMapSettings& a, const io::SkyMapSettings& b) {
+    return a.colour_map == b.colour_map && a.scale == b.scale && a.decades == b.decades &&
+           a.channel == b.channel;
+}
+
+/// The incidence of a layer; none if the experiment has no such layer.
+std::optional<Incidence> incidence_of(const IlluminationSettings& light, int number) {
+    const std::vector<Incidence> all = incidences(light);
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [number](const Incidence& i) { return i.number == number; });
+    return found == all.end() ? std::nullopt : std::optional(*found);
+}
+
+}  // namespace
+
+SurfaceScene::SurfaceScene(Workbench& workbench, QWidget* parent)
+    : QWidget(parent), workbench_(workbench), viewport_(new Viewport(this)) {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(viewport_);
+    viewport_->setObjectName("surface-viewport");
+    viewport_->setAccessibleName(tr("Microfacets Surface"));
+    setFocusProxy(viewport_);
+    growing_.setSingleShot(true);
+    growing_.setInterval(kGrowMs);
+    viewport_->set_home(home_of_scene());
+    viewport_->set_camera_type(workbench_.settings().surface_view.camera_type);
+    viewport_->add_overlay([this](QPainter& painter, const Viewport&) { paint_lines(painter); });
+    viewport_->add_overlay([this](QPainter& painter, const Viewport&) { paint_labels(painter); });
+    connect_workbench();
+    connect_viewport();
+    take_layer();
+    take_paths();
+    take_surface();
+}
+
+void SurfaceScene::connect_workbench() {
+    connect(&workbench_.document(), &Document::changed, this, &SurfaceScene::follow_settings);
+    connect(&workbench_.surface(), &SurfaceSource::ready, this, &SurfaceScene::take_surface);
+    connect(&workbench_.light(), &LightSeen::changed, this, [this] {
+        take_paths();
+        show_picture();
+    });
+    connect(&workbench_, &Workbench::cell_selected, this, [this] {
+        take_paths();
+        show_picture();
+    });
+    connect(&workbench_.drawing(), &Drawing::layers_changed, this, [this](int number) {
+        if (number != 0 && number != workbench_.settings().surface_view.current_layer) return;
+        if (!growing_.isActive()) growing_.start();
+    });
+    connect(&growing_, &QTimer::timeout, this, [this] {
+        take_layer();
+        show_picture();
+    });
+}
+
+void SurfaceScene::connect_viewport() {
+    connect(viewport_, &Viewport::clicked, this, &SurfaceScene::click);
+    connect(viewport_, &Viewport::hovered, this, &SurfaceScene::hover);
+    connect(&viewport_->painter(), &Painter::failed, &workbench_, &Workbench::complaint);
+    viewport_->installEventFilter(this);
+}
+
+// What is shown
+
+void SurfaceScene::follow_settings(const StudioSettings& before) {
+    const SurfaceView &then = before.surface_view, &now = workbench_.settings().surface_view;
+    if (then.camera_type != now.camera_type) viewport_->set_camera_type(now.camera_type);
+    const Detector wanted(workbench_.settings().experiment.detector);
+    const bool other_layer = then.current_layer != now.current_layer || then.dome != now.dome ||
+                             !same_look(then.sky_map, now.sky_map) ||
+                             wanted.cells() != detector_.cells() ||
+                             wanted.kind() != detector_.kind();
+    if (other_layer) take_layer();
+    if (other_layer || then.shading != now.shading)
+        show_picture();
+    else
+        viewport_->refresh_overlay();
+}
+
+void SurfaceScene::take_surface() {
+    const std::shared_ptr<const Heightfield> surface = workbench_.surface().surface();
+    body_ =
+        surface
+            ? std::make_shared<const Lazy<SurfaceBody>>([surface] { return SurfaceBody(*surface); })
+            : nullptr;
+    show_picture();
+}
+
+/// The layer as it is now, and the detector whose cells the dome is made of.
+void SurfaceScene::take_layer() {
+    const StudioSettings& settings = workbench_.settings();
+    const Layers& layers = workbench_.drawing().layers();
+    detector_ = layers.head ? layers.head->detector : Detector(settings.experiment.detector);
+    dome_ = nullptr;
+    const auto found = layers.by_number.find(settings.surface_view.current_layer);
+    if (!settings.surface_view.dome || !layers.head || found == layers.by_number.end()) return;
+    dome_ = std::make_shared<const Lazy<DomePicture>>(
+        [head = layers.head, layer = found->second, look = settings.surface_view.sky_map] {
+            return DomePicture(*head, *layer, look);
+        });
+}
+
+/// The facets of the paths into a cell stand out; those of all paths would be all over.
+void SurfaceScene::take_paths() {
+    const auto& wish = workbench_.light().wish();
+    const bool of_cell = workbench_.selected_cell() && wish && wish->cell;
+    selected_facets_ =
+        of_cell ? std::make_shared<const FacetSet>(workbench_.light().paths()) : nullptr;
+}
+
+void SurfaceScene::show_picture() {
+    const SurfacePicture picture{body_, dome_, workbench_.settings().surface_view.shading,
+                                 selected_facets_};
+    viewport_->set_picture(
+        [picture](const Camera& camera) { return paint_surface(picture, camera); });
+}
+
+// Cells of the dome
+
+std::optional<int> SurfaceScene::cell_at(QPointF place) const {
+    if (!workbench_.settings().surface_view.dome) return std::nullopt;
+    const WorldRay ray = viewport_->ray_at(place);
+    const SurfaceBody* surface = body();
+    if (surface && surface->view().look(surface->frame().to_surface(ray)).part != PatchPart::None)
+        return std::nullopt;
+    const std::optional<Vec3> direction = dome_direction(ray);
+    if (!direction || direction->y < 0) return std::nullopt;
+    return detector_.cell_of(SurfaceFrame::direction_to_surface(*direction));
+}
+
+QString SurfaceScene::reading_at(QPointF place) const {
+    const std::optional<int> cell = cell_at(place);
+    if (!cell) return {};
+    const SurfaceView& view = workbench_.settings().surface_view;
+    return cell_text(detector_, *cell, workbench_.drawing().layers(), view.current_layer,
+                     view.sky_map.channel);
+}
+
+void SurfaceScene::click(QPointF place, Qt::MouseButton button) {
+    if (button != Qt::LeftButton) return;
+    const std::optional<int> cell = cell_at(place);
+    workbench_.select_cell(cell == workbench_.selected_cell() ? std::nullopt : cell);
+}
+
+void SurfaceScene::hover(QPointF place) {
+    hovered_ = place;
+    viewport_->refresh_overlay();
+}
+
+bool SurfaceScene::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == viewport_ && event->type() == QEvent::Leave) {
+        hovered_.reset();
+        viewport_->refresh_overlay();
+    }
+    return QWidget::eventFilter(watched, event);
+}
+
+void SurfaceScene::keyPressEvent(QKeyEvent* event) {
+    if (event->key() == Qt::Key_Escape && workbench_.selected_cell())
+        workbench_.select_cell(std::nullopt);
+    else
+        QWidget::keyPressEvent(event);
+}
+
+// Lines and labels
+
+void SurfaceScene::paint_lines(QPainter& painter) const {
+    const StudioSettings& settings = workbench_.settings();
+    const SurfaceView& view = settings.surface_view;
+    const SurfaceBody* surface = body();
+    // Smooth edges cost more than a moving view can spend.
+    painter.setRenderHint(QPainter::Antialiasing, !viewport_->frame().moving);
+    const SceneLines lines(painter, *viewport_, surface);
+    if (view.dome) paint_dome_lines(lines, *viewport_);
+    if (!surface) return;
+    if (view.paths) paint_paths(lines, workbench_.light().paths(), *surface);
+    if (const auto incidence = incidence_of(settings.experiment.illumination, view.current_layer);
+        view.beam && incidence)
+        paint_beam(lines, Beam(from_spherical(incidence->theta, incidence->phi), *surface),
+                   settings.experiment.run.jitter);
+    if (const std::optional<int> cell = workbench_.selected_cell();
+        view.dome && cell && *cell < detector_.cells())
+        paint_cell(lines, detector_, *cell);
+}
+
+void SurfaceScene::paint_labels(QPainter& painter) const {
+    const StudioSettings& settings = workbench_.settings();
+    const SurfaceView& view = settings.surface_view;
+    const QRectF area = viewport_->rect();
+    const double em = painter.fontMetrics().height();
+    QString text = layer_text(settings.experiment.illumination, view.current_layer,
+                              workbench_.drawing().layers(), view.sky_map.channel);
+    if (workbench_.drawing().layers().head && !workbench_.are_layers_current())
+        text += tr(" · drawn with other settings");
+    paint_label(painter, area, Qt::AlignTop | Qt::AlignLeft, text);
+    paint_axis_cross(painter, area.bottomLeft() + QPointF(3, -3) * em, viewport_->shown_camera());
+    if (view.paths && !workbench_.light().paths().empty())
+        paint_bounce_legend(painter, area.bottomLeft() + QPointF(6.5, -0.6) * em,
+                            most_bounces(workbench_.light().paths()));
+    const DomePicture* dome = dome_ ? dome_->if_made() : nullptr;
+    if (dome) paint_colour_bar(painter, area, dome->scale(), view.sky_map.colour_map);
+    if (!hovered_) return;
+    if (const QString reading = reading_at(*hovered_); !reading.isEmpty())
+        paint_bubble(painter, area, *hovered_, reading);
+}
+
+}  // namespace asperity::studio
