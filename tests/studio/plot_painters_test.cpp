@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// The painters of the plots: pixels where known data must be.
+#include "plots_testing.h"
+#include "view/plot_canvas.h"
+#include "view/plot_frame.h"
+#include "view/plot_polar.h"
+
+#include <asperity/core/directions.h>
+
+#include <QTest>
+
+#include <cmath>
+
+namespace asperity::studio {
+namespace {
+
+using test::difference;
+using test::distance_near;
+
+const QSize kSize(600, 400);
+const QRectF kArea(0, 0, 600, 400);
+
+CurveSet line_from(double x0, double y0, double x1, double y1, double error) {
+    CurveSet set;
+    set.x_name = set.x_column = "x";
+    set.curves.push_back({"a",
+                          "a [1]",
+                          PlotInk::Simulated,
+                          CurveLook::Line,
+                          {x0, x1},
+                          {y0, y1},
+                          {error, error},
+                          {7, 8}});
+    return set;
+}
+
+PlotStyle print_style() {
+    return PlotStyle(QFont());
+}
+
+}  // namespace
+
+class PlotPaintersTest : public QObject {
+    Q_OBJECT
+
+  private slots:
+    void ticks_are_round_numbers();
+    void a_line_goes_through_its_points();
+    void a_log_axis_is_even_in_factors();
+    void the_band_is_one_error_wide();
+    void a_curve_beyond_the_axes_is_cut_off();
+    void polar_angles_and_radii();
+    void reading_gives_value_error_and_cell();
+};
+
+void PlotPaintersTest::ticks_are_round_numbers() {
+    const auto labels = [](const PlotAxis& axis, int count) {
+        QStringList texts;
+        for (const PlotTick& tick : axis.ticks(count))
+            if (!tick.label.isEmpty()) texts << tick.label;
+        return texts;
+    };
+    QCOMPARE(labels({{}, 0, 1, false, 0}, 5),
+             QStringList({"0", "0.2", "0.4", "0.6", "0.8", "1.0"}));
+    QCOMPARE(labels({{}, -90, 90, false, 45}, 9), QStringList({"−90", "−45", "0", "45", "90"}));
+    QCOMPARE(labels({{}, 1e-2, 10, true, 0}, 9), QStringList({"10⁻²", "10⁻¹", "10⁰", "10¹"}));
+    QCOMPARE(labels({{}, 0, 4e-5, false, 0}, 4),
+             QStringList({"0", "1×10⁻⁵", "2×10⁻⁵", "3×10⁻⁵", "4×10⁻⁵"}));
+    QCOMPARE(axis_up_to(0.83, false, 4).high, 1.0);
+    QCOMPARE(axis_up_to(3.1, true, 4).high, 10.0);
+    QCOMPARE(axis_up_to(3.1, true, 4).low, 1e-3);
+}
+
+void PlotPaintersTest::a_line_goes_through_its_points() {
+    const PlotStyle style = print_style();
+    const CurvePlot plot(line_from(0, 0, 10, 5, 0), {"x", 0, 10}, {"y", 0, 8});
+    const QImage image = plot_image(plot, kSize, 1, style);
+    const PlotFrame frame = plot.frame(kArea, style);
+    for (const double x : {2.0, 5.0, 8.5}) {
+        QVERIFY(distance_near(image, frame.map(x, x / 2), style.ink(PlotInk::Simulated)) < 40);
+        QVERIFY(distance_near(image, frame.map(x, x / 2 + 1), style.ink(PlotInk::Simulated)) > 80);
+    }
+}
+
+void PlotPaintersTest::a_log_axis_is_even_in_factors() {
+    const PlotStyle style = print_style();
+    const CurvePlot plot(line_from(0, 10, 10, 10, 0), {"x", 0, 10}, {"y", 1, 100, true});
+    const QImage image = plot_image(plot, kSize, 1, style);
+    const QRectF inside = plot.frame(kArea, style).inside();
+    const QPointF middle = inside.center() + QPointF(3, 0);
+    QVERIFY(distance_near(image, middle, style.ink(PlotInk::Simulated)) < 40);
+    QVERIFY(distance_near(image, middle + QPointF(0, 12), style.ink(PlotInk::Simulated)) > 80);
+}
+
+void PlotPaintersTest::the_band_is_one_error_wide() {
+    const PlotStyle style = print_style();
+    CurveSet set = line_from(0, 5, 10, 5, 2);
+    const auto pixel = [&](double y) {
+        const CurvePlot plot(set, {"x", 0, 10}, {"y", 0, 10});
+        const QPointF place = plot.frame(kArea, style).map(5.3, y);
+        return plot_image(plot, kSize, 1, style).pixelColor(place.toPoint());
+    };
+    QVERIFY(difference(pixel(6.7), style.paper) > 20);
+    QVERIFY(difference(pixel(3.3), style.paper) > 20);
+    QVERIFY(difference(pixel(7.4), style.paper) < 5);
+    set.error_band = false;
+    QVERIFY(difference(pixel(6.7), style.paper) < 5);
+}
+
+void PlotPaintersTest::a_curve_beyond_the_axes_is_cut_off() {
+    const PlotStyle style = print_style();
+    const CurvePlot plot(line_from(0, -10, 10, 30, 0), {"x", 0, 10}, {"y", 0, 10});
+    const QImage image = plot_image(plot, kSize, 1, style);
+    const PlotFrame frame = plot.frame(kArea, style);
+    QVERIFY(distance_near(image, frame.map(3.75, 5), style.ink(PlotInk::Simulated)) < 40);
+    for (const QPointF outside : {frame.map(5.3, 11.2), frame.map(2.2, -1.2)})
+        QVERIFY(distance_near(image, outside, style.ink(PlotInk::Simulated)) > 80);
+}
+
+void PlotPaintersTest::polar_angles_and_radii() {
+    const PlotStyle style = print_style();
+    const PolarPlot plot(line_from(20, 0.5, 40, 0.5, 0), {"f", 0, 1}, 60);
+    const PolarFrame frame = plot.frame(kArea, style);
+    const QPointF place =
+        frame.centre() +
+        0.5 * frame.radius() * QPointF(std::sin(radians(40)), -std::cos(radians(40)));
+    const QImage image = plot_image(plot, kSize, 1, style);
+    QVERIFY(distance_near(image, place, style.ink(PlotInk::Simulated)) < 40);
+    // The light comes from the left, along -60 degrees
+    QVERIFY(distance_near(image, frame.map(-60, 0.8), style.ink(PlotInk::Light)) < 40);
+    QVERIFY(distance_near(image, frame.map(-50, 0.8), style.ink(PlotInk::Light)) > 60);
+    QCOMPARE(*frame.theta_at(frame.map(-35, 0.7)), -35.0);
+    QVERIFY(!frame.theta_at(frame.centre() + QPointF(0, 5)));
+}
+
+void PlotPaintersTest::reading_gives_value_error_and_cell() {
+    const PlotStyle style = print_style();
+    const CurvePlot plot(line_from(0, 2, 10, 5, 0.25), {"x", 0, 10}, {"y", 0, 8});
+    const PlotFrame frame = plot.frame(kArea, style);
+    const auto reading = plot.reading(frame.map(8, 1), kArea, style);
+    QVERIFY(reading);
+    QCOMPARE(reading->cell, std::optional<int>(8));
+    QVERIFY2(reading->text.contains("a: 5 ± 0.25"), qPrintable(reading->text));
+    QCOMPARE(reading->dots.front().place, frame.map(10, 5));
+    QVERIFY(!plot.reading(QPointF(1, 1), kArea, style));
+}
+
+}  // namespace asperity::studio
+
+QTEST_MAIN(asperity::studio::PlotPaintersTest)
+#include "plot_painters_test.moc"
