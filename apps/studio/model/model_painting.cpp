@@ -100,12 +100,13 @@ const Negative::Shot& Negative::shot() const {
     return *shot_;
 }
 
-std::optional<Negative::Exposed> Negative::exposed() {
+bool Negative::shows(std::uint64_t sight, const Camera& camera, QSize size) {
     const auto lock = ask();
-    if (shot_ == nullptr || shot_->renderer.samples() == 0) return std::nullopt;
+    if (shot_ == nullptr || shot_->sight != sight || shot_->renderer.samples() == 0) return false;
     const Film& film = shot_->renderer.film();
-    return Exposed{film.width(), film.height(), shot_->renderer.samples(),
-                   noise(film),  shot_->camera, shot_->sight};
+    const Camera& seen = shot_->camera;
+    return size == QSize(film.width(), film.height()) && seen.position == camera.position &&
+           seen.forward == camera.forward && seen.up == camera.up && seen.fov_deg == camera.fov_deg;
 }
 
 io::Provenance Negative::complete(io::Provenance provenance) const {

@@ -10,12 +10,11 @@
 #include <asperity/render/scene.h>
 #include <asperity/render/tonemap.h>
 
-#include <QString>
+#include <QSize>
 
 #include <atomic>
 #include <memory>
 #include <mutex>
-#include <optional>
 
 namespace asperity::studio {
 
@@ -33,19 +32,11 @@ struct ModelSight {
 /// in its thread while the main thread may ask for it.
 class Negative {
   public:
-    /// What a film came to.
-    struct Exposed {
-        int width = 0, height = 0;
-        std::uint32_t samples = 0;
-        double noise = 0;
-        Camera camera;
-        std::uint64_t sight = 0;  ///< ModelSight::number
-    };
-    /// None before a first pass is done.
-    std::optional<Exposed> exposed();
+    /// Whether this is a picture of that sight, camera and size, with a first pass done.
+    bool shows(std::uint64_t sight, const Camera& camera, QSize size);
 
-    /// With what came out added to the provenance: "samples", "noise", "width", "height". The PNG
-    /// is what painting shows. Throw Error(InputOutput, path); Error(Usage) when nothing is
+    /// With what came out added to the provenance: size, seed, samples, noise. The PNG is
+    /// what the painting shows. Throw Error(InputOutput, path); Error(Usage) when nothing is
     /// exposed.
     void save_png(const std::string& path, io::Provenance provenance);
     void save_exr(const std::string& path, io::Provenance provenance);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "../model/workbench.h"
+#include "bindings.h"
+#include "section.h"
 
 #include <QWidget>
 
@@ -14,6 +16,14 @@ class ModelPanel : public QWidget {
 
   public:
     explicit ModelPanel(Workbench& workbench, QWidget* parent = nullptr);
+
+  private:
+    Section* brdf_section();
+    Section* compare_section();
+    QWidget* result_field();
+
+    Document& document_;
+    Bindings bindings_;
 };
 
 }  // namespace asperity::studio

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rows.h"
+
+namespace asperity::studio {
+
+QFormLayout* new_rows(QWidget* parent) {
+    auto* rows = new QFormLayout(parent);
+    rows->setContentsMargins(0, 0, 0, 0);
+    return rows;
+}
+
+void add_row(QFormLayout& rows, const QString& label, QWidget* field, const QString& tooltip) {
+    rows.addRow(label, field);
+    rows.labelForField(field)->setToolTip(tooltip);
+    field->setToolTip(tooltip);
+    for (QWidget* part : field->findChildren<QWidget*>()) part->setToolTip(tooltip);
+}
+
+}  // namespace asperity::studio
