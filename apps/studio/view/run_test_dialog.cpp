@@ -3,7 +3,6 @@
 
 #include "section.h"
 
-#include <asperity/core/error.h>
 #include <checks/checks.h>
 
 #include <QHBoxLayout>
@@ -48,7 +47,7 @@ RunTestDialog::RunTestDialog(QWidget* parent)
     result_->setObjectName("final-result");
     again_->setObjectName("run-again");
     stop_->setObjectName("stop-test");
-    progress_->setRange(0, kChecks);
+    progress_->setRange(0, checks::kThesisChecks);
     progress_->setTextVisible(false);
     auto* exit = new QPushButton(tr("Exit"));
     exit->setObjectName("exit-test");
@@ -81,7 +80,6 @@ void RunTestDialog::begin() {
     background_.start([this](Run& run, const Background::Post& post) -> Background::Delivery {
         const checks::CheckReport report = [&](const std::string& name,
                                                const std::string& failure) {
-            if (run.stop_requested()) throw Error(ErrorCode::Stopped, "stopped");
             post([this, name = QString::fromStdString(name),
                   why = QString::fromStdString(failure)] { add(name, why); });
         };
@@ -114,7 +112,8 @@ void RunTestDialog::add(const QString& name, const QString& failure) {
 
 void RunTestDialog::show_result() {
     progress_->setValue(done_);
-    result_->setText(tr("%1 out of %2 Passed").arg(passed_).arg(busy() ? kChecks : done_));
+    result_->setText(
+        tr("%1 out of %2 Passed").arg(passed_).arg(busy() ? checks::kThesisChecks : done_));
     stop_->setEnabled(busy());
     again_->setEnabled(!busy());
 }

@@ -16,8 +16,6 @@ class RunTestDialog : public QDialog {
     Q_OBJECT
 
   public:
-    static constexpr int kChecks = 79;
-
     explicit RunTestDialog(QWidget* parent = nullptr);
 
     void begin();  ///< from the first check; nothing while they run
