@@ -22,16 +22,8 @@ namespace asperity::cli {
 
 namespace {
 
-/// One option of an experiment. Help shows the default of the library unless `otherwise` says what
-/// happens without the option.
-struct OptionInfo {
-    const char* key;
-    const char* metavar;  ///< empty: a flag
-    const char* group;
-    const char* help;
-    const char* otherwise = nullptr;
-};
-
+/// The options of an experiment, by their keys. Help shows the default of the library where the
+/// table says nothing.
 constexpr OptionInfo kOptions[] = {
     {"surface", "SPEC|FILE", kSurface,
      "thesis, gaussian, ggx, flat, tilted, vgroove, sawtooth, pyramids, sinusoid, eggcrate, or a "
@@ -100,22 +92,22 @@ constexpr OptionInfo kOptions[] = {
 
 const OptionInfo* find(const std::string& key) {
     const auto* info = std::find_if(std::begin(kOptions), std::end(kOptions),
-                                    [&](const OptionInfo& o) { return key == o.key; });
+                                    [&](const OptionInfo& o) { return key == o.name; });
     return info == std::end(kOptions) ? nullptr : info;
 }
 
 std::string default_of(const OptionInfo& info) {
-    if (info.otherwise) return info.otherwise;
+    if (*info.otherwise) return info.otherwise;
     static const std::vector<io::Setting> defaults = io::settings_of(Experiment{});
     for (const io::Setting& setting : defaults) {
-        if (setting.key == info.key) return setting.value;
+        if (setting.key == info.name) return setting.value;
     }
     return {};
 }
 
 std::vector<std::string> long_names(const CLI::App& app) {
     std::vector<std::string> names;
-    for (const OptionInfo& info : kOptions) names.emplace_back(info.key);
+    for (const OptionInfo& info : kOptions) names.emplace_back(info.name);
     for (const CLI::Option* option : app.get_options()) {
         for (const std::string& name : option->get_lnames()) names.push_back(name);
     }
@@ -150,6 +142,12 @@ CLI::Option* add_text(CLI::App& app, const std::string& name, const std::string&
         ->type_name(metavar)
         ->group(group)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+}
+
+CLI::Option* add_option(CLI::App& app, const OptionInfo& info, const std::string& otherwise) {
+    const std::string name = std::string("--") + info.name;
+    if (*info.metavar == '\0') return app.add_flag(name, info.help)->group(info.group);
+    return add_text(app, name, info.metavar, info.help, info.group)->default_str(otherwise);
 }
 
 std::string text_of(const CLI::Option* option, const std::string& otherwise) {
@@ -196,16 +194,9 @@ void ExperimentOptions::add_to(CLI::App& app, std::initializer_list<const char*>
         const bool wanted = std::any_of(groups.begin(), groups.end(), [&](const char* group) {
             return std::strcmp(group, info.group) == 0;
         });
-        const std::string key = info.key;
+        const std::string key = info.name;
         if (!wanted || (key == "surface" && !surface_option)) continue;
-        CLI::Option* option = nullptr;
-        if (*info.metavar == '\0') {
-            option = app.add_flag("--" + key, info.help)->group(info.group);
-        } else {
-            option = add_text(app, "--" + key, info.metavar, info.help, info.group)
-                         ->default_str(default_of(info));
-        }
-        options_.emplace_back(key, option);
+        options_.emplace_back(key, add_option(app, info, default_of(info)));
     }
     config_ = add_text(app, "--config", "FILE",
                        "read options from a text file of lines 'rays = 100000'; the command line "

@@ -26,6 +26,18 @@ inline constexpr const char* kOutput = "Output";
 CLI::Option* add_text(CLI::App& app, const std::string& name, const std::string& metavar,
                       const std::string& help, const std::string& group);
 
+/// A row of a table of options.
+struct OptionInfo {
+    const char* name;     ///< without dashes
+    const char* metavar;  ///< empty: a flag
+    const char* group;
+    const char* help;
+    const char* otherwise = "";  ///< what happens without the option, if the table says it
+};
+
+/// Adds an option of a table; help shows `otherwise` unless it is a flag.
+CLI::Option* add_option(CLI::App& app, const OptionInfo& info, const std::string& otherwise);
+
 /// The value of an option, or `otherwise` when it was not given.
 std::string text_of(const CLI::Option* option, const std::string& otherwise = {});
 

@@ -16,16 +16,8 @@ namespace asperity::cli {
 
 namespace {
 
-/// One option of a picture. A default that stands in square brackets is only shown: what happens
-/// without the option is decided elsewhere.
-struct OptionInfo {
-    const char* name;
-    const char* metavar;  ///< empty: a flag
-    const char* group;
-    const char* help;
-    const char* otherwise = "";
-};
-
+/// The options of a picture; after a comma a second spelling. A default that stands in square
+/// brackets is only shown: what happens without the option is decided elsewhere.
 constexpr OptionInfo kRenderOptions[] = {
     {"model", "NAME|FILE", kModel,
      "sphere, plane, knot, ball, bowl, or a file (.obj .ply .stl .gltf .glb .3ds)", "ball"},
@@ -135,21 +127,14 @@ void RenderOptions::add_to(CLI::App& app, std::initializer_list<const char*> onl
     for (const OptionInfo& info : kRenderOptions) {
         const std::string name = first_name(info.name);
         if (only.size() > 0 && std::find(only.begin(), only.end(), name) == only.end()) continue;
-        const std::string spelling = std::string("--") + info.name;
         names_.push_back(name);
         texts_[name] = {};
-        if (*info.metavar == '\0') {
-            options_[name] = app.add_flag(spelling, info.help)->group(info.group);
-            continue;
-        }
         std::string otherwise = info.otherwise;
-        if (is_shown_only(otherwise)) {
+        if (is_shown_only(otherwise))
             otherwise = otherwise.substr(1, otherwise.size() - 2);
-        } else {
+        else if (!otherwise.empty())
             texts_[name] = {otherwise};
-        }
-        options_[name] =
-            add_text(app, spelling, info.metavar, info.help, info.group)->default_str(otherwise);
+        options_[name] = add_option(app, info, otherwise);
     }
     for (const char* repeated : {"brdf", "light"}) {
         const auto option = options_.find(repeated);
