@@ -55,7 +55,7 @@ QWidget* ModelPanel::result_field() {
 }
 
 Section* ModelPanel::compare_section() {
-    auto* section = new Section(tr("Compare"));
+    auto* section = new Section(tr("Compare BRDFs"));
     auto* compare = new QCheckBox(tr("Compare"));
     compare->setObjectName("compare");
     compare->setToolTip(
