@@ -79,8 +79,10 @@ class LightOfLayer {
         if (found == light.end())
             throw Error(ErrorCode::Usage, fmt::format("there is no layer {}", layer), "layer");
         const auto stream = static_cast<std::uint32_t>(found - light.begin());
-        return {tracer.surface(), double{tracer.max_height()}, *found, LaunchPattern::Random,
-                kMaxRaysPerLayer, experiment.run.seed,         stream, 0};
+        return {tracer.surface(), static_cast<double>(tracer.max_height()),
+                *found,           LaunchPattern::Random,
+                kMaxRaysPerLayer, experiment.run.seed,
+                stream,           0};
     }
 
     Vec3 position(const Ray& ray) const {

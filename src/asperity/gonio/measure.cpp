@@ -206,7 +206,7 @@ class Gonioreflectometer {
             if (!run_.keep_going()) return;
             std::unique_ptr<Workplace> work = borrow_workplace();
             // Choose start points
-            const LaunchBatch batch(surface_, double{tracer_->max_height()}, light,
+            const LaunchBatch batch(surface_, static_cast<double>(tracer_->max_height()), light,
                                     experiment_.run.launch, plan_.rays_of(b), experiment_.run.seed,
                                     stream, static_cast<std::uint32_t>(b));
             // Follow the rays until they leave, and sort them by direction

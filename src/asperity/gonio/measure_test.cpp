@@ -157,8 +157,10 @@ TEST(Measure, TurningSurfaceAndLightTurnsTheLobe) {
         const int other = row * columns + (column + columns / 4) % columns;
         const double ea = a.energy(a.layers[0], 0, cell), eb = b.energy(b.layers[0], 0, other);
         if (ea * 200000 < 50) continue;
-        const double sa = double{a.layers[0].stderr_energy[static_cast<std::size_t>(cell)]};
-        const double sb = double{b.layers[0].stderr_energy[static_cast<std::size_t>(other)]};
+        const double sa =
+            static_cast<double>(a.layers[0].stderr_energy[static_cast<std::size_t>(cell)]);
+        const double sb =
+            static_cast<double>(b.layers[0].stderr_energy[static_cast<std::size_t>(other)]);
         chi2 += (ea - eb) * (ea - eb) / (sa * sa + sb * sb);
         ++cells;
     }

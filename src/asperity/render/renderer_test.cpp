@@ -172,6 +172,33 @@ TEST(Renderer, HearsAWishToStopWithinATenthOfASecond) {
     EXPECT_LT(seconds, 0.1);
 }
 
+TEST(Renderer, APauseChangesNothingButTheTime) {
+    RenderSettings settings = small(128, 128);
+    settings.spp = 12;
+    Renderer renderer(rich_scene(), kFront, settings);
+    asperity::Run run(2);
+    std::uint64_t standing = 0, later = 0, all = 0;
+    std::thread user([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(30));
+        run.request_pause();
+        std::this_thread::sleep_for(std::chrono::milliseconds(150));  // the tiles under way
+        standing = run.progress().done;
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        later = run.progress().done;
+        all = run.progress().total;
+        run.resume();
+    });
+    const auto begin = Clock::now();
+    const RenderOutcome outcome = render(renderer, run);
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    user.join();
+    EXPECT_EQ(standing, later);
+    EXPECT_LT(later, all);
+    EXPECT_FALSE(outcome.stopped);
+    EXPECT_LE(outcome.seconds, seconds - 0.4);
+    EXPECT_TRUE(same_bits(rendered(rich_scene(), kFront, settings), renderer.film()));
+}
+
 TEST(Renderer, SplitViewIsTwoWholePictures) {
     ModelScene split = rich_scene();
     const RenderSettings settings = small();

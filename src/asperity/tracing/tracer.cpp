@@ -74,10 +74,10 @@ class Walk {
 
     void fetch_corners() {
         const int left = kMirrored ? i_ + 1 : i_, right = kMirrored ? i_ : i_ + 1;
-        h00_ = double{s_.at(left, j_)};
-        h10_ = double{s_.at(right, j_)};
-        h01_ = double{s_.at(left, j_ + 1)};
-        h11_ = double{s_.at(right, j_ + 1)};
+        h00_ = static_cast<double>(s_.at(left, j_));
+        h10_ = static_cast<double>(s_.at(right, j_));
+        h01_ = static_cast<double>(s_.at(left, j_ + 1));
+        h11_ = static_cast<double>(s_.at(right, j_ + 1));
     }
 
     /// The same after a step over one line, whose two corners are known.
@@ -85,14 +85,16 @@ class Walk {
         const int left = kMirrored ? i_ + 1 : i_, right = kMirrored ? i_ : i_ + 1;
         if (along_u) {
             const int column = forward ? right : left;
-            const double below = double{s_.at(column, j_)}, above = double{s_.at(column, j_ + 1)};
+            const double below = static_cast<double>(s_.at(column, j_)),
+                         above = static_cast<double>(s_.at(column, j_ + 1));
             (forward ? h00_ : h10_) = forward ? h10_ : h00_;
             (forward ? h01_ : h11_) = forward ? h11_ : h01_;
             (forward ? h10_ : h00_) = below;
             (forward ? h11_ : h01_) = above;
         } else {
             const int row = forward ? j_ + 1 : j_;
-            const double at_left = double{s_.at(left, row)}, at_right = double{s_.at(right, row)};
+            const double at_left = static_cast<double>(s_.at(left, row)),
+                         at_right = static_cast<double>(s_.at(right, row));
             (forward ? h00_ : h01_) = forward ? h01_ : h00_;
             (forward ? h10_ : h11_) = forward ? h11_ : h10_;
             (forward ? h01_ : h00_) = at_left;
@@ -180,7 +182,7 @@ class Walk {
         int& index = along_u ? i_ : j_;
         const bool new_tile = step > 0 ? (index + 1) % HeightBounds::tile_size(0) == 0
                                        : index % HeightBounds::tile_size(0) == 0;
-        if (dz_ >= 0 && z_ >= double{bounds_.max_height()}) {
+        if (dz_ >= 0 && z_ >= static_cast<double>(bounds_.max_height())) {
             end = RayEnd::Escaped;
             return false;
         }
@@ -200,7 +202,7 @@ class Walk {
 
     /// Puts a ray that starts in free space into its triangle; true when it is out already.
     bool enter_free(RayEnd& end) {
-        if (dz_ >= 0 && z_ >= double{bounds_.max_height()}) {
+        if (dz_ >= 0 && z_ >= static_cast<double>(bounds_.max_height())) {
             end = RayEnd::Escaped;
             return true;
         }
@@ -244,7 +246,7 @@ class Walk {
     /// Flies over the tile of this level the ray is in; false when it may dip below its top.
     bool jump_tile(int level, RayEnd& end) {
         const int size = HeightBounds::tile_size(level);
-        const double top = double{bounds_.tile_max(level, i_ / size, j_ / size)};
+        const double top = static_cast<double>(bounds_.tile_max(level, i_ / size, j_ / size));
         if (z_ < top) return false;
         // Cells from here to the tile's four sides, in the walk's own sense of u
         const int i0 = i_ / size * size, i1 = std::min(i0 + size, s_.cells_x());
@@ -271,7 +273,7 @@ class Walk {
             v_ = dv_ > 0 ? 0.0 : 1.0;
             j_ = dv_ > 0 ? j1 - 1 : j0;
         }
-        if (dz_ >= 0 && z_ >= double{bounds_.max_height()}) {
+        if (dz_ >= 0 && z_ >= static_cast<double>(bounds_.max_height())) {
             end = RayEnd::Escaped;
             return true;
         }

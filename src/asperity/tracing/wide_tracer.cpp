@@ -147,13 +147,15 @@ void WideTracer::settle_edges(PathWave& wave) const {
     Escapes& e = wave.escapes;
     std::size_t kept = 0;
     for (std::size_t k = 0; k < e.count; ++k) {
-        const double du = double{e.x[k]} / heights_.dx(), dv = double{e.y[k]} / heights_.dy();
-        const double t = std::min(
-            until_side(double{e.at_x[k]}, du, -grid_.middle_x, heights_.cells_x() - grid_.middle_x),
-            until_side(double{e.at_y[k]}, dv, -grid_.middle_y,
-                       heights_.cells_y() - grid_.middle_y));
+        const double du = static_cast<double>(e.x[k]) / heights_.dx(),
+                     dv = static_cast<double>(e.y[k]) / heights_.dy();
+        const double t = std::min(until_side(static_cast<double>(e.at_x[k]), du, -grid_.middle_x,
+                                             heights_.cells_x() - grid_.middle_x),
+                                  until_side(static_cast<double>(e.at_y[k]), dv, -grid_.middle_y,
+                                             heights_.cells_y() - grid_.middle_y));
         const bool over =
-            e.z[k] > 0 && double{e.at_z[k]} + double{e.z[k]} * t >= double{heights_.max_height()};
+            e.z[k] > 0 && static_cast<double>(e.at_z[k]) + static_cast<double>(e.z[k]) * t >=
+                              static_cast<double>(heights_.max_height());
         if (!over) {
             wave.edge[wave.edge_count++] = e.path[k];
             continue;
@@ -173,7 +175,7 @@ void WideTracer::trace(std::span<Ray> rays, std::span<RayEnd> ends) const {
         std::vector<std::size_t> free, standing;
         for (std::size_t k = first; k < first + count; ++k) {
             const bool above = rays[k].facet < 0 && rays[k].direction.z >= 0 &&
-                               rays[k].z >= double{heights_.max_height()};
+                               rays[k].z >= static_cast<double>(heights_.max_height());
             if (above)
                 ends[k] = RayEnd::Escaped;
             else
@@ -218,13 +220,14 @@ void WideTracer::trace_some(std::span<const std::size_t> chosen, bool on_facet, 
 
 void WideTracer::stand(const FacetPoints& p, std::size_t k, Ray& ray) const {
     const bool upper = p.side[k] < 0;
-    const double u = double{p.u[k]}, v = double{p.v[k]};
+    const double u = static_cast<double>(p.u[k]), v = static_cast<double>(p.v[k]);
     const int i = vertex_x(p.corner[k]) + grid_.middle_x - (upper ? 1 : 0);
     ray.i = mirrored() ? heights_.cells_x() - 1 - i : i;
     ray.j = vertex_y(p.corner[k]) + grid_.middle_y - (upper ? 1 : 0);
     ray.u = upper != mirrored() ? 1 - u : u;
     ray.v = upper ? 1 - v : v;
-    ray.z = double{p.height[k]} + double{p.rise_u[k]} * u + double{p.rise_v[k]} * v;
+    ray.z = static_cast<double>(p.height[k]) + static_cast<double>(p.rise_u[k]) * u +
+            static_cast<double>(p.rise_v[k]) * v;
     ray.facet = static_cast<std::int32_t>(upper ? Triangle::Upper : Triangle::Lower);
     if (!periodic()) return;
     // Corners on the border belong to the next tile; a tile of ours may be several of the surface
