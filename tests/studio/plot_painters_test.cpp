@@ -2,6 +2,7 @@
 // The painters of the plots: pixels where known data must be.
 #include "plots_testing.h"
 #include "view/plot_canvas.h"
+#include "view/plot_disc.h"
 #include "view/plot_frame.h"
 #include "view/plot_polar.h"
 
@@ -51,6 +52,7 @@ class PlotPaintersTest : public QObject {
     void a_curve_beyond_the_axes_is_cut_off();
     void polar_angles_and_radii();
     void reading_gives_value_error_and_cell();
+    void a_lit_cell_is_where_it_belongs();
 };
 
 void PlotPaintersTest::ticks_are_round_numbers() {
@@ -143,6 +145,33 @@ void PlotPaintersTest::reading_gives_value_error_and_cell() {
     QVERIFY2(reading->text.contains("a: 5 ± 0.25"), qPrintable(reading->text));
     QCOMPARE(reading->dots.front().place, frame.map(10, 5));
     QVERIFY(!plot.reading(QPointF(1, 1), kArea, style));
+}
+
+void PlotPaintersTest::a_lit_cell_is_where_it_belongs() {
+    DiscPainter painter;
+    const io::ValueScale scale{io::Scale::Linear, 0, 2};
+    const io::Colour top = io::colour_of(io::ColourMap::Viridis, 1);
+    const QColor lit = QColor::fromRgbF(static_cast<float>(top.r), static_cast<float>(top.g),
+                                        static_cast<float>(top.b));
+    for (const int resolution : {16, 13}) {  // columns that mirror, and some that do not
+        DetectorSettings settings;
+        settings.resolution = resolution;
+        const Detector detector(settings);
+        for (int cell = 0; cell < detector.cells(); ++cell) {
+            std::vector<double> values(static_cast<std::size_t>(detector.cells()));
+            values[static_cast<std::size_t>(cell)] = 2;
+            const QImage image =
+                painter.paint(400, detector, values, scale, io::ColourMap::Viridis);
+            for (int other = 0; other < detector.cells(); ++other) {
+                const Vec3 w = detector.centre(other);
+                const QPoint place(static_cast<int>(200 + 200 * w.x),
+                                   static_cast<int>(200 - 200 * w.y));
+                const int from_lit = difference(image.pixelColor(place), lit);
+                QVERIFY2(other == cell ? from_lit < 3 : from_lit > 100,
+                         qPrintable(QString("cell %1 at cell %2").arg(cell).arg(other)));
+            }
+        }
+    }
 }
 
 }  // namespace asperity::studio

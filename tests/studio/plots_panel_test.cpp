@@ -305,6 +305,9 @@ void PlotsPanelTest::controls_are_steps_of_the_history() {
     kind->setFocus();
     QTest::keyClick(kind, Qt::Key_End);
     QCOMPARE(bench_.settings().plots.kind, PlotKind::Normals);
+    QVERIFY(!band->isEnabled());  // the count of all facets has no error
+    QTest::keyClick(kind, Qt::Key_Up);
+    QCOMPARE(bench_.settings().plots.kind, PlotKind::Albedo);
     QCOMPARE(history.undoText(), QString("Plot Kind"));
     QTest::mouseClick(band, Qt::LeftButton, {}, QPoint(8, band->height() / 2));
     QCOMPARE(bench_.settings().plots.error_band, !before.error_band);

@@ -76,6 +76,9 @@ QLayout* PlotControls::make_choices() {
     bindings_.bind(
         band, tr("Error Band"), [](const StudioSettings& s) { return s.plots.error_band; },
         [](StudioSettings& s, bool on) { s.plots.error_band = on; });
+    bindings_.follow([band](const StudioSettings& s) {
+        band->setEnabled(s.plots.kind != PlotKind::Hemisphere && s.plots.kind != PlotKind::Normals);
+    });
     row->addWidget(band);
     row->addStretch(1);
 

@@ -10,8 +10,7 @@ namespace asperity::studio {
 
 namespace {
 
-constexpr int kAcross = 2;  ///< places in a pixel, along x and y
-constexpr std::size_t kPlaces = kAcross * kAcross;
+constexpr std::size_t kAcross = 2;  ///< places in a pixel, along x and y
 constexpr std::size_t kColours = 512;
 
 QRgb rgb_of(io::Colour colour) {
@@ -47,16 +46,17 @@ QImage DiscPainter::paint(int pixels, const Detector& detector, const std::vecto
         find_cells(pixels, detector);
     const std::array<QRgb, kColours> colours = colours_of(map);
     const QRgb nothing = rgb_of(io::kZeroColour);
+    const std::size_t side = kAcross * static_cast<std::size_t>(pixels);
     QImage square(pixels, pixels, QImage::Format_RGB32);
-    const int* cell = cells_.data();
     for (int j = 0; j < pixels; ++j) {
         auto* line = reinterpret_cast<QRgb*>(square.scanLine(j));
-        for (int i = 0; i < pixels; ++i) {
+        const int* cell = cells_.data() + kAcross * static_cast<std::size_t>(j) * side;
+        for (int i = 0; i < pixels; ++i, cell += kAcross) {
             double sum = 0;
             int inside = 0;
-            for (std::size_t k = 0; k < kPlaces; ++k, ++cell) {
-                if (*cell < 0) continue;
-                sum += values[static_cast<std::size_t>(*cell)];
+            for (const int at : {cell[0], cell[1], cell[side], cell[side + 1]}) {
+                if (at < 0) continue;
+                sum += values[static_cast<std::size_t>(at)];
                 ++inside;
             }
             line[i] = sum > 0 ? colours[static_cast<std::size_t>(
@@ -72,19 +72,31 @@ void DiscPainter::find_cells(int pixels, const Detector& detector) {
     kind_ = detector.kind();
     rows_ = detector.rows();
     columns_ = detector.columns();
-    cells_.clear();
-    const std::size_t side = static_cast<std::size_t>(pixels);
-    cells_.reserve(side * side * kPlaces);
-    const auto place = [pixels](int pixel, int sub) {
-        return 2 * (pixel + (sub + 0.5) / kAcross) / pixels - 1;
+    const std::size_t half = static_cast<std::size_t>(pixels), side = kAcross * half;
+    cells_.assign(side * side, -1);
+    const auto below = [this](int cell) {  // mirrored in the x axis
+        return cell / columns_ * columns_ + columns_ - 1 - cell % columns_;
     };
-    for (int j = 0; j < pixels; ++j)
-        for (int i = 0; i < pixels; ++i)
-            for (int sub = 0; sub < kAcross * kAcross; ++sub) {
-                const double x = place(i, sub % kAcross), y = -place(j, sub / kAcross);
-                const double r2 = x * x + y * y;
-                cells_.push_back(r2 < 1 ? detector.cell_of({x, y, std::sqrt(1 - r2)}) : -1);
-            }
+    const auto beside = [this](int cell) {  // in the y axis, from the first quadrant
+        return cell / columns_ * columns_ + columns_ / 2 - 1 - cell % columns_;
+    };
+    // Angles are worked out in one quadrant only, or in two where columns do not mirror
+    for (std::size_t b = 0; b < half; ++b)
+        for (std::size_t a = 0; a < half; ++a) {
+            const double x = (static_cast<double>(a) + 0.5) / pixels;
+            const double y = (static_cast<double>(b) + 0.5) / pixels;
+            const double z2 = 1 - x * x - y * y;
+            if (z2 <= 0) break;
+            const int right = detector.cell_of({x, y, std::sqrt(z2)});
+            const int left =
+                columns_ % 2 == 0 ? beside(right) : detector.cell_of({-x, y, std::sqrt(z2)});
+            int* upper = cells_.data() + (half - 1 - b) * side + half;
+            int* lower = cells_.data() + (half + b) * side + half;
+            upper[a] = right;
+            lower[a] = below(right);
+            *(upper - 1 - a) = left;
+            *(lower - 1 - a) = below(left);
+        }
 }
 
 }  // namespace asperity::studio

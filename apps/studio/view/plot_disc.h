@@ -24,7 +24,7 @@ class DiscPainter {
 
     int pixels_ = 0, rows_ = 0, columns_ = 0;
     DetectorKind kind_ = DetectorKind::LatLong;
-    std::vector<int> cells_;  ///< four for each pixel; -1: off the disc
+    std::vector<int> cells_;  ///< of places twice as fine as pixels, by rows; -1: off the disc
 };
 
 }  // namespace asperity::studio

@@ -10,15 +10,19 @@
 
 #include <QApplication>
 #include <QClipboard>
+#include <QElapsedTimer>
 #include <QMessageBox>
 #include <QVBoxLayout>
+
+#include <algorithm>
 
 namespace asperity::studio {
 
 namespace {
 
-/// Plots of a growing layer follow each other no faster.
+/// Plots of a growing layer follow each other no faster, and take a tenth of the time at most.
 constexpr int kMillisecondsBetween = 100;
+constexpr int kShareOfTime = 10;
 
 }  // namespace
 
@@ -97,8 +101,12 @@ void PlotsPanel::refresh() {
     const PlotSource source = this->source();
     controls_->show_surface_alpha(source.surface_alpha);
     if (!isVisible()) return;  // made when it is shown
+    QElapsedTimer clock;
+    clock.start();
     if (const auto wish = models_for(source)) models_.want(*wish);
     canvas_->set_plot(plot());
+    timer_.setInterval(
+        std::max(kMillisecondsBetween, kShareOfTime * static_cast<int>(clock.elapsed())));
 }
 
 QSize PlotsPanel::shown_size() const {
