@@ -174,7 +174,7 @@ TEST(Renderer, HearsAWishToStopWithinATenthOfASecond) {
 
 TEST(Renderer, APauseChangesNothingButTheTime) {
     RenderSettings settings = small(128, 128);
-    settings.spp = 12;
+    settings.spp = 6;
     Renderer renderer(rich_scene(), kFront, settings);
     asperity::Run run(2);
     std::uint64_t standing = 0, later = 0, all = 0;
