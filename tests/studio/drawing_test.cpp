@@ -54,7 +54,7 @@ bool starts_growing(Drawing& drawing) {
     return QTest::qWaitFor([&] { return !drawing.layers().by_number.empty(); }, kSoon);
 }
 
-/// Runs the program on a session and returns the checksum it prints.
+/// Runs the program on a session and returns the checksum it prints, or else its error.
 QString checksum_of_the_cli(const QString& session) {
     QProcess cli;
     cli.start(ASPERITY_CLI, {"simulate", "--config", session});
@@ -75,7 +75,9 @@ class DrawingTest : public QObject {
     void stops_while_preparing();
     void pause_keeps();
     void starts_anew_while_drawing();
+    void same_as_the_command_line_data();
     void same_as_the_command_line();
+    void refuses_as_the_command_line();
     void opens_a_result();
     void refuses_before_it_begins();
     void fails_with_a_sentence();
@@ -217,15 +219,25 @@ void DrawingTest::starts_anew_while_drawing() {
     QCOMPARE(completed.count(), 1);
 }
 
+void DrawingTest::same_as_the_command_line_data() {
+    QTest::addColumn<bool>("copper");
+    QTest::addColumn<bool>("isotropic");
+    QTest::newRow("copper") << true << false;
+    QTest::newRow("mirrors") << false << true;
+}
+
 void DrawingTest::same_as_the_command_line() {
+    QFETCH(bool, copper);
+    QFETCH(bool, isotropic);
     const QTemporaryDir folder;
     Document document;
-    document.change("All", [](StudioSettings& s) {
+    document.change("All", [&](StudioSettings& s) {
         s.experiment = small_experiment();
         s.experiment.surface.roughness = 0.35;
         s.experiment.illumination.layers = 5;
-        s.experiment.optics.fresnel = FresnelKind::Conductor;
-        s.experiment.optics.material = "Cu";
+        s.experiment.illumination.isotropic = isotropic;
+        s.experiment.optics.fresnel = copper ? FresnelKind::Conductor : FresnelKind::None;
+        s.experiment.optics.material = copper ? "Cu" : "";
         s.model_view.model = "knot";
         s.surface_view.current_layer = 3;
     });
@@ -238,6 +250,25 @@ void DrawingTest::same_as_the_command_line() {
     QVERIFY(completed.wait(kSoon));
     QCOMPARE(drawing.checksum().size(), 32);
     QCOMPARE(checksum_of_the_cli(document.path()), drawing.checksum());
+}
+
+void DrawingTest::refuses_as_the_command_line() {
+    const QTemporaryDir folder;
+    Document document;
+    document.change("Material", [](StudioSettings& s) {
+        s.experiment = small_experiment();
+        s.experiment.optics.material = "Cu";  // of perfect mirrors
+    });
+    document.save(folder.filePath("session.txt"));
+    QString sentence;
+    try {
+        Drawing().start(surface_of(small_experiment()), document.settings().experiment);
+    } catch (const Error& error) {
+        sentence = error.what();
+    }
+    QCOMPARE(sentence, "material: has no meaning with fresnel none");
+    const QString printed = checksum_of_the_cli(document.path()).trimmed();
+    QVERIFY2(printed.contains(sentence), qPrintable(printed));
 }
 
 void DrawingTest::opens_a_result() {
@@ -258,7 +289,7 @@ void DrawingTest::opens_a_result() {
     QCOMPARE(drawing.layers().by_number.size(), 4U);
     QCOMPARE(drawing.checksum().toStdString(), io::checksum(m));
 
-    QVERIFY_EXCEPTION_THROWN(drawing.open(folder.filePath("none.asperity")), Error);
+    QVERIFY_THROWS_EXCEPTION(Error, drawing.open(folder.filePath("none.asperity")));
     QCOMPARE(drawing.layers().by_number.size(), 4U);
 }
 
@@ -267,12 +298,12 @@ void DrawingTest::refuses_before_it_begins() {
     Experiment experiment = small_experiment();
     const auto surface = surface_of(experiment);
     experiment.run.bounces = 0;
-    QVERIFY_EXCEPTION_THROWN(drawing.start(surface, experiment), Error);
+    QVERIFY_THROWS_EXCEPTION(Error, drawing.start(surface, experiment));
     experiment = small_experiment();
     experiment.optics.fresnel = FresnelKind::Conductor;
     experiment.optics.material = "cheese";
-    QVERIFY_EXCEPTION_THROWN(drawing.start(surface, experiment), Error);
-    QVERIFY_EXCEPTION_THROWN(drawing.start(nullptr, small_experiment()), Error);
+    QVERIFY_THROWS_EXCEPTION(Error, drawing.start(surface, experiment));
+    QVERIFY_THROWS_EXCEPTION(Error, drawing.start(nullptr, small_experiment()));
     QCOMPARE(drawing.state(), State::Idle);
 }
 

@@ -271,9 +271,9 @@ void SessionTest::open_refuses_and_keeps() {
     file.close();
     Document document;
     document.change("Ray Bounces", [](auto& s) { s.experiment.run.bounces = 7; });
-    QVERIFY_EXCEPTION_THROWN(document.open(path), Error);
-    QVERIFY_EXCEPTION_THROWN(document.open(folder.filePath("missing.txt")), Error);
-    QVERIFY_EXCEPTION_THROWN(document.save(folder.filePath("no/such/folder.txt")), Error);
+    QVERIFY_THROWS_EXCEPTION(Error, document.open(path));
+    QVERIFY_THROWS_EXCEPTION(Error, document.open(folder.filePath("missing.txt")));
+    QVERIFY_THROWS_EXCEPTION(Error, document.save(folder.filePath("no/such/folder.txt")));
     QCOMPARE(document.settings().experiment.run.bounces, 7);
     QCOMPARE(document.undo_stack().count(), 1);
     QVERIFY(document.path().isEmpty());

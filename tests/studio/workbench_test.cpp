@@ -10,6 +10,7 @@
 #include <QTemporaryDir>
 #include <QTest>
 
+#include <algorithm>
 #include <optional>
 
 namespace asperity::studio {
@@ -50,6 +51,7 @@ class WorkbenchTest : public QObject {
     void says_whether_layers_are_current();
     void silly_settings_are_a_complaint();
     void paths_follow();
+    void paths_into_a_cell();
     void cell_is_dropped();
     void ends_at_once();
     void logs();
@@ -110,6 +112,12 @@ void WorkbenchTest::unreadable_surface() {
     QVERIFY(!bench.is_drawing());
     QCOMPARE(bench.surface().surface(), old);
     QCOMPARE(bench.log_lines().size(), 1);
+
+    // The older surface is still to be seen, but not drawn in place of the one asked for
+    bench.draw_to_textures();
+    QVERIFY(complaint.wait(kSoon));
+    QVERIFY(!bench.is_drawing());
+    QVERIFY(bench.drawing().layers().head == nullptr);
 }
 
 void WorkbenchTest::draws_once_the_surface_is_ready() {
@@ -196,6 +204,40 @@ void WorkbenchTest::paths_follow() {
 
     bench.document().change("Paths", [](StudioSettings& s) { s.surface_view.paths = false; });
     QVERIFY(bench.light().paths().empty());
+}
+
+void WorkbenchTest::paths_into_a_cell() {
+    Workbench bench;
+    make_small(bench);
+    bench.document().change("Paths", [](StudioSettings& s) {
+        s.surface_view.paths = true;
+        s.surface_view.path_count = 20;
+        s.surface_view.current_layer = 9;
+    });
+    bench.draw_to_textures();
+    QVERIFY(drawing_ends(bench));
+    const auto all_in_cell_40 = [&] {
+        const auto& paths = bench.light().paths();
+        return std::all_of(paths.begin(), paths.end(), [](auto& path) { return path.cell == 40; });
+    };
+    QVERIFY(paths_come(bench));
+    QVERIFY(!all_in_cell_40());
+    bench.select_cell(40);
+    QVERIFY(paths_come(bench));
+    QCOMPARE(bench.light().paths().size(), 20U);
+    QVERIFY(all_in_cell_40());
+
+    // The layers shown have cells of their own, though the settings say other ones already
+    bench.document().change("Texture Resolution",
+                            [](StudioSettings& s) { s.experiment.detector.resolution = 512; });
+    bench.select_cell(40);
+    QVERIFY(paths_come(bench));
+    QCOMPARE(bench.light().wish()->experiment.detector.resolution, 32);
+    QVERIFY(all_in_cell_40());
+
+    bench.select_cell(std::nullopt);
+    QVERIFY(paths_come(bench));
+    QVERIFY(!all_in_cell_40());
 }
 
 void WorkbenchTest::cell_is_dropped() {

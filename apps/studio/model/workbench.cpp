@@ -9,19 +9,17 @@
 namespace asperity::studio {
 namespace {
 
-/// The settings of one group, as text: equal if and only if the group is.
-std::string text_of(const Experiment& experiment, bool surface_only) {
-    Experiment part = surface_only ? Experiment{} : experiment;
-    part.surface = experiment.surface;
-    return io::to_text(part);
-}
-
-bool same_surface(const Experiment& a, const Experiment& b) {
-    return text_of(a, true) == text_of(b, true);
-}
+// Settings are equal if and only if their texts are.
 
 bool same_experiment(const Experiment& a, const Experiment& b) {
-    return text_of(a, false) == text_of(b, false);
+    return io::to_text(a) == io::to_text(b);
+}
+
+bool same_surface(const SurfaceSettings& a, const SurfaceSettings& b) {
+    Experiment of_a, of_b;
+    of_a.surface = a;
+    of_b.surface = b;
+    return same_experiment(of_a, of_b);
 }
 
 bool same_detector(const DetectorSettings& a, const DetectorSettings& b) {
@@ -47,6 +45,10 @@ Workbench::Workbench(QObject* parent) : QObject(parent) {
 }
 
 void Workbench::draw_to_textures() {
+    // The surface of the settings could not be made: the older one still there is not theirs
+    const bool fits =
+        surface_.surface() && same_surface(surface_.settings(), settings().experiment.surface);
+    if (!fits && !surface_.busy()) surface_.make(settings().experiment.surface);
     if (surface_.busy())
         set_waiting(true);
     else
@@ -83,7 +85,7 @@ void Workbench::follow_settings(const StudioSettings& before) {
     const StudioSettings& now = settings();
     if (!same_detector(before.experiment.detector, now.experiment.detector))
         select_cell(std::nullopt);
-    if (!same_surface(before.experiment, now.experiment)) {
+    if (!same_surface(before.experiment.surface, now.experiment.surface)) {
         surface_.make(now.experiment.surface);  // paths follow when it is ready
         return;
     }
@@ -102,6 +104,9 @@ void Workbench::look_for_paths() {
     }
     Experiment experiment = settings().experiment;
     experiment.surface = surface_.settings();
+    // A cell is one of the layers that are shown, whatever the settings say by now
+    const auto& shown = drawing_.layers().head;
+    if (cell_ && shown) experiment.detector = shown->experiment.detector;
     light_.look({surface_.surface(), experiment, view.current_layer,
                  static_cast<std::size_t>(view.path_count), cell_});
 }
