@@ -81,7 +81,12 @@ QLayout* PlotControls::make_choices() {
     });
     row->addWidget(band);
     row->addStretch(1);
+    return row;
+}
 
+QLayout* PlotControls::make_buttons() {
+    auto* row = new QHBoxLayout;
+    row->addStretch(1);
     auto* copy = make_button<QToolButton>(
         tr("Copy Picture"), tr("Puts the plot on the clipboard, black on white for print"));
     auto* save = make_button<QToolButton>(
@@ -107,7 +112,8 @@ QLayout* PlotControls::make_models() {
         follow, tr("Follow Surface"),
         [](const StudioSettings& s) { return s.plots.follow_surface; },
         [](StudioSettings& s, bool on) { s.plots.follow_surface = on; });
-    grid->addWidget(follow, 3, 0, 1, 2);
+    grid->addWidget(follow, 3, 0);
+    grid->addLayout(make_buttons(), 3, 1);
     return grid;
 }
 

@@ -28,6 +28,7 @@ class PlotControls : public QWidget {
   private:
     QLayout* make_choices();
     QLayout* make_models();
+    QLayout* make_buttons();
     void add_model(QGridLayout& grid, int row, const QString& name, Overlay PlotView::*overlay);
     void update_models();
 

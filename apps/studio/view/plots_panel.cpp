@@ -36,7 +36,8 @@ PlotsPanel::PlotsPanel(Workbench& workbench, QWidget* parent)
     read_out_->setObjectName("plot-read-out");
     read_out_->setWordWrap(true);
     read_out_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    read_out_->setMinimumHeight(2 * read_out_->fontMetrics().lineSpacing());
+    // As high as its longest line gets: the plot above must not move under the mouse
+    read_out_->setFixedHeight(3 * read_out_->fontMetrics().lineSpacing());
     read_out_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
     read_out_->setToolTip(tr("Values under the mouse, ± 1 standard error"));
     auto* layout = new QVBoxLayout(this);
