@@ -99,7 +99,8 @@ QString CurveSet::reading_at(std::size_t k) const {
     for (const PlotCurve& curve : curves) {
         const auto y = value_at(curve, x);
         if (!y) continue;
-        text += QStringLiteral("   %1: %2").arg(curve.name, value_text(*y));
+        const QString& name = curve.brief.isEmpty() ? curve.name : curve.brief;
+        text += QStringLiteral("   %1: %2").arg(name, value_text(*y));
         if (k < curve.error.size()) text += QStringLiteral(" ± ") + error_text(curve.error[k]);
     }
     if (!y_unit.isEmpty()) text += QStringLiteral("   [%1]").arg(y_unit);

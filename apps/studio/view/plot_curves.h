@@ -20,6 +20,7 @@ struct PlotCurve {
     std::vector<double> x, y;
     std::vector<double> error;  ///< standard error of y; empty: exact
     std::vector<int> cells;     ///< of the detector; empty: these are no cells
+    QString brief = {};         ///< in a read-out; empty: the name
 };
 
 /// What the plots of curves have in common: a title, curves, what they are called.

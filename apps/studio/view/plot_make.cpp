@@ -53,6 +53,8 @@ void add_models(CurveSet& set, const ModelValues* models, const PlotSource& sour
                 const QString& column) {
     if (models == nullptr) return;
     constexpr std::array kInks = {PlotInk::CookTorrance, PlotInk::Ggx, PlotInk::Beckmann};
+    static const std::array kBriefly = {QStringLiteral("Cook-Torrance"), QStringLiteral("GGX"),
+                                        QStringLiteral("Beckmann")};
     const OverlayAlphas asked = overlay_alphas(source.view, source.surface_alpha);
     for (std::size_t k = 0; k < kOverlays; ++k) {
         if (asked[k] == 0 || models->y[k].empty()) continue;
@@ -64,7 +66,8 @@ void add_models(CurveSet& set, const ModelValues* models, const PlotSource& sour
                               models->x,
                               models->y[k],
                               {},
-                              {}});
+                              {},
+                              kBriefly[k]});
     }
 }
 
