@@ -84,6 +84,7 @@ void SurfaceScene::connect_workbench() {
         if (number != 0 && number != workbench_.settings().surface_view.current_layer) return;
         if (!growing_.isActive()) growing_.start();
     });
+    connect(&workbench_.drawing(), &Drawing::completed, &growing_, qOverload<>(&QTimer::start));
     connect(&growing_, &QTimer::timeout, this, [this] {
         take_layer();
         show_picture();
