@@ -137,7 +137,10 @@ void DrawingTest::layers_grow() {
 }
 
 void DrawingTest::stop_clears_and_answers() {
-    const Experiment experiment = endless_experiment();
+    Experiment experiment = endless_experiment();
+    experiment.surface.size = 512;
+    experiment.run.jitter = 4000;
+    experiment.detector.resolution = 512;
     std::optional<Drawing> drawing(std::in_place);
     drawing->start(surface_of(experiment), experiment);
     QVERIFY(starts_growing(*drawing));

@@ -26,7 +26,6 @@ class StatisticsTest : public QObject {
   private slots:
     void figure_2_6();
     void figure_2_8b();
-    void model();
     void rays_of_a_drawing();
 };
 
@@ -65,14 +64,6 @@ Environment map:
 Rays Stats:
   Rays Count: 1.04858e+06
   Rays/s: 2.5e+07)"));
-}
-
-void StatisticsTest::model() {
-    const GeometryCounts bunny = geometry_of_model(1, 69451, 35947);
-    QCOMPARE(bunny.instances, 1U);
-    QCOMPARE(bunny.transform_matrices(), 2U);
-    QCOMPARE(bunny.instanced_triangles, 69451U);
-    QCOMPARE(bunny.unique_vertices, 35947U);
 }
 
 void StatisticsTest::rays_of_a_drawing() {

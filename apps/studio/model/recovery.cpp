@@ -97,6 +97,7 @@ std::vector<Recovery::Lost> Recovery::recoverable() const {
 }
 
 void Recovery::forget(const Lost& lost) {
+    keep();  // if it was restored, it must not be lost between the two copies
     QFile::remove(lost.copy);
 }
 

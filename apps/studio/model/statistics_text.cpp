@@ -10,11 +10,6 @@ GeometryCounts geometry_of(const Heightfield& surface) {
     return {cells, cells, 2 * cells, 4 * cells, 2 * cells, 4 * cells};
 }
 
-GeometryCounts geometry_of_model(std::uint64_t meshes, std::uint64_t triangles,
-                                 std::uint64_t vertices) {
-    return {meshes, meshes, triangles, vertices, triangles, vertices};
-}
-
 RayCounts rays_of(const Drawing& drawing) {
     if (const auto result = drawing.result()) {
         RayCounts counts;

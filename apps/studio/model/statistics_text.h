@@ -23,9 +23,6 @@ struct GeometryCounts {
 
 /// As the thesis counts a surface: every cell is a mesh of 2 triangles and 4 vertices.
 GeometryCounts geometry_of(const Heightfield& surface);
-/// A model of `meshes` parts, each shown once.
-GeometryCounts geometry_of_model(std::uint64_t meshes, std::uint64_t triangles,
-                                 std::uint64_t vertices);
 
 struct RayCounts {
     double rays = 0;        ///< launched so far, all layers together
