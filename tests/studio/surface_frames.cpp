@@ -34,7 +34,7 @@ void run_until(const std::function<bool()>& done) {
 /// Drags for some seconds and says how fluid that was.
 void measure(SurfaceScene& scene, const char* name) {
     Viewport& view = scene.viewport();
-    constexpr double kSeconds = 3;
+    constexpr qint64 kMilliseconds = 3000;
     int frames = 0;
     double pixels = 0;
     const auto counting = QObject::connect(&view, &Viewport::frame_shown, [&] {
@@ -47,7 +47,7 @@ void measure(SurfaceScene& scene, const char* name) {
     const double cpu = cpu_seconds();
     send(view, QEvent::MouseButtonPress, {640, 300}, Qt::LeftButton);
     double fps = 0, ms = 0;
-    while (clock.elapsed() < 1000 * kSeconds) {
+    while (clock.elapsed() < kMilliseconds) {
         const double t = 1e-3 * static_cast<double>(clock.elapsed());
         send(view, QEvent::MouseMove, {640 + 200 * t, 300 + 60 * std::sin(3 * t)}, Qt::LeftButton);
         QElapsedTimer tick;
@@ -58,7 +58,7 @@ void measure(SurfaceScene& scene, const char* name) {
             ms = view.painter().milliseconds_per_frame();
         }
     }
-    const double cpu_moving = cpu_seconds() - cpu, moved = 1e-3 * double(clock.elapsed());
+    const double cpu_moving = cpu_seconds() - cpu;
     QObject::disconnect(counting);
     clock.restart();
     const double cpu_before = cpu_seconds();
@@ -71,7 +71,6 @@ void measure(SurfaceScene& scene, const char* name) {
         "frame; full picture {:.3f} s after the stop ({:.3f} s CPU), smooth after {:.2f} s\n",
         name, fps, ms, 100 * pixels / std::max(1, frames) / (view.width() * view.height()),
         1000 * cpu_moving / std::max(1, frames), still, cpu_still, 1e-3 * double(clock.elapsed()));
-    static_cast<void>(moved);
 }
 
 }  // namespace

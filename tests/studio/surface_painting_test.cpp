@@ -210,8 +210,8 @@ void SurfacePaintingTest::unlit_cells_are_black() {
     const DomePicture full(*layer.head, layer.layer, {io::ColourMap::ThesisRed});
     const io::Colour wanted = io::colour_of_value(1, full.scale(), io::ColourMap::ThesisRed);
     const auto lit = full.colour({0, 0, 1});
-    QVERIFY(std::abs(lit[0] - 255 * wanted.r) < 1 && lit[0] > 200);
-    QVERIFY(std::abs(lit[2] - 255 * wanted.b) < 1);
+    QVERIFY(std::abs(double{lit[0]} - 255 * wanted.r) < 1 && lit[0] > 200);
+    QVERIFY(std::abs(double{lit[2]} - 255 * wanted.b) < 1);
     std::fill(layer.layer.energy.begin() + 1, layer.layer.energy.end(), 0);
     const DomePicture empty(*layer.head, layer.layer, {io::ColourMap::ThesisRed});
     QCOMPARE(empty.colour(from_spherical(1, 2)), (DomePicture::Pixel{0, 0, 0}));
