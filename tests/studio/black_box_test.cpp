@@ -162,10 +162,9 @@ void BlackBoxTest::increase_ray_bounces() {
         window().type("ray-bounces", bounces);
         QVERIFY(window().draw());
         const double escaped = result().albedo(layer(15), 0);
-        QVERIFY2(escaped > former + 0.02, qPrintable(QString::number(escaped)));
+        QVERIFY2(escaped > 1.3 * former, qPrintable(QString::number(escaped)));
         former = escaped;
     }
-    QVERIFY(former > 0.9);
 }
 
 void BlackBoxTest::switch_current_layers() {
@@ -212,7 +211,9 @@ void BlackBoxTest::camera_types() {
     QVERIFY(!moved(viewport.camera().position, before.position));  // keys do nothing
     drag(Qt::LeftButton);
     QVERIFY(moved(viewport.camera().position, before.position));
-    QVERIFY(std::abs(length(viewport.camera().position) - length(before.position)) < 1e-6);
+    // It still looks at the same place: both lines of sight meet
+    const Vec3 normal = normalize(cross(before.forward, viewport.camera().forward));
+    QVERIFY(std::abs(dot(normal, viewport.camera().position - before.position)) < 1e-9);
 
     window().choose("camera-type", "First-Person");
     viewport.setFocus();

@@ -62,7 +62,7 @@ class ScreenshotsTest : public QObject {
     void light_theme();
 
   private:
-    void open(Theme theme = Theme::Dark, QSize size = {1500, 900});
+    void open(Theme theme = Theme::Dark, QSize size = {1600, 940});
     void edit(const std::function<void(StudioSettings&)>& change);
     void draw();
     void show_model();
@@ -111,6 +111,9 @@ void ScreenshotsTest::show_model() {
 
 void ScreenshotsTest::shoot(const QString& name, QWidget* widget, double least_drawn) {
     QTest::qWait(400);  // plots and statistics follow by timers
+    // Smooth edges if the machine finds the time
+    static_cast<void>(
+        QTest::qWaitFor([this] { return window().viewport().frame().passes >= 8; }, 4000));
     const QImage image =
         (widget ? widget : window_.get())->grab().toImage().convertToFormat(QImage::Format_RGB32);
     QVERIFY(image.save(folder_.filePath(name + ".png")));

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "view/main_window.h"
-#include "view/slider_field.h"
+#include "view/viewport.h"
 
 #include <QApplication>
 #include <QComboBox>
@@ -74,10 +74,11 @@ class StudioWindow : public MainWindow {
     bool surface_comes();
     /// Presses Draw To Textures and waits for the end.
     bool draw();
-    /// Waits until the picture of the scene that is shown is of full resolution and stays.
+    /// Waits until the picture of the scene that is shown is of the settings, at full resolution.
     bool picture_comes();
-    QImage picture();  ///< of the viewport, with what is painted over it
-    void set_small();  ///< settings that draw in a moment
+    Viewport& viewport();  ///< of the scene that is shown
+    QImage picture();      ///< of the viewport, with what is painted over it
+    void set_small();      ///< settings that draw in a moment
 };
 
 /// Share of the pixels for which `holds` says yes.

@@ -11,14 +11,13 @@ namespace {
 
 constexpr int kMostLines = 10000;
 
-QString drawn_line(const Workbench& workbench, const Drawing& drawing) {
+QString drawn_line(const Drawing& drawing) {
     const Measurement& result = *drawing.result();
     double rays = 0;
     for (const Layer& layer : result.layers) rays += static_cast<double>(layer.rays);
-    const auto layers = static_cast<int>(result.layers.size());
-    return workbench
-        .tr("Drew %n layer(s) of %1: %2 million rays in %3 s, checksum %4", nullptr, layers)
+    return QObject::tr("Drawn: %1, layers %2, %3 million rays in %4 s, checksum %5")
         .arg(QString::fromStdString(result.surface_name))
+        .arg(result.layers.size())
         .arg(rays / 1e6, 0, 'g', 3)
         .arg(result.trace_seconds, 0, 'g', 3)
         .arg(drawing.checksum());
@@ -48,7 +47,7 @@ void LogView::contextMenuEvent(QContextMenuEvent* event) {
 void log_events(Workbench& workbench) {
     Drawing& drawing = workbench.drawing();
     QObject::connect(&drawing, &Drawing::completed, &workbench, [&workbench, &drawing] {
-        workbench.log(drawn_line(workbench, drawing));
+        workbench.log(drawn_line(drawing));
         for (const std::string& note : drawing.result()->notes)
             workbench.log(QString::fromStdString(note));
     });

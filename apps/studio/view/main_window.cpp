@@ -96,7 +96,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), parts_(std::make_
     follow_settings();
     show_title();
 
-    resize(1500, 900);
+    resize(1600, 940);
     parts_->first_layout = saveState();
     restoreGeometry(preferences::window_geometry());
     restoreState(preferences::window_layout());
@@ -120,11 +120,12 @@ void MainWindow::make_docks() {
     QDockWidget* plots =
         add_dock(*this, tr("Plots"), "plots-dock", parts_->plots, Qt::RightDockWidgetArea);
     QDockWidget* log =
-        add_dock(*this, tr("Log"), "log-dock", new LogView(workbench()), Qt::BottomDockWidgetArea);
+        add_dock(*this, tr("Log"), "log-dock", new LogView(workbench()), Qt::RightDockWidgetArea);
     parts_->docks = {menu, plots, log};
-    const int letter = fontMetrics().averageCharWidth();
-    resizeDocks({menu, plots}, {48 * letter, 64 * letter}, Qt::Horizontal);
-    resizeDocks({log}, {8 * fontMetrics().height()}, Qt::Vertical);
+    const QFontMetrics letters = fontMetrics();
+    resizeDocks({menu, plots}, {46 * letters.averageCharWidth(), 58 * letters.averageCharWidth()},
+                Qt::Horizontal);
+    resizeDocks({plots, log}, {40 * letters.height(), 14 * letters.height()}, Qt::Vertical);
 }
 
 Workbench& MainWindow::workbench() {

@@ -6,14 +6,39 @@
 #include "surface_panel.h"
 #include "surface_scene.h"
 
+#include <QEvent>
 #include <QFormLayout>
-#include <QLabel>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QVBoxLayout>
+
+#include <algorithm>
 
 namespace asperity::studio {
 
 namespace {
+
+/// Scrolls up and down only: never narrower than the widest of its rows so far.
+class ColumnScroll : public QScrollArea {
+  public:
+    explicit ColumnScroll(QWidget* column) {
+        setWidget(column);
+        setWidgetResizable(true);
+        setFrameShape(QFrame::NoFrame);
+        setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+        setFocusPolicy(Qt::NoFocus);
+    }
+
+  protected:
+    bool eventFilter(QObject* watched, QEvent* event) override {
+        if (watched == widget() && event->type() == QEvent::LayoutRequest) {
+            const int needed =
+                widget()->minimumSizeHint().width() + verticalScrollBar()->sizeHint().width();
+            setMinimumWidth(std::max(minimumWidth(), needed));
+        }
+        return QScrollArea::eventFilter(watched, event);
+    }
+};
 
 /// A page: controls that can be scrolled, and buttons that always stay in sight below them.
 QWidget* make_page(const char* name, const std::vector<QWidget*>& controls, QWidget* buttons) {
@@ -24,18 +49,11 @@ QWidget* make_page(const char* name, const std::vector<QWidget*>& controls, QWid
     for (QWidget* control : controls) column->addWidget(control);
     column->addStretch(1);
 
-    auto* scroll = new QScrollArea;
-    scroll->setWidget(list);
-    scroll->setWidgetResizable(true);
-    scroll->setFrameShape(QFrame::NoFrame);
-    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    scroll->setFocusPolicy(Qt::NoFocus);
-
     auto* page = new QWidget;
     page->setObjectName(name);
     auto* layout = new QVBoxLayout(page);
     layout->setContentsMargins(6, 6, 0, 6);
-    layout->addWidget(scroll, 1);
+    layout->addWidget(new ColumnScroll(list), 1);
     layout->addWidget(buttons);
     return page;
 }

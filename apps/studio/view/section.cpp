@@ -67,6 +67,14 @@ Section::Section(const QString& title, QWidget* parent)
     connect(bar_, &SectionBar::toggled, body_, &QWidget::setVisible);
 }
 
+void Section::showEvent(QShowEvent*) {
+    const int width = fontMetrics().horizontalAdvance("Correlation Length");
+    for (int row = 0; row < form_->rowCount(); ++row) {
+        const QLayoutItem* item = form_->itemAt(row, QFormLayout::LabelRole);
+        if (item && item->widget()) item->widget()->setMinimumWidth(width);
+    }
+}
+
 void Section::set_open(bool open) {
     bar_->setChecked(open);
 }

@@ -34,6 +34,9 @@ class Section : public QWidget {
     void set_open(bool open);
     bool is_open() const { return bar_->isChecked(); }
 
+  protected:
+    void showEvent(QShowEvent*) override;  ///< labels of all sections take the same width
+
   private:
     SectionBar* bar_;
     QWidget* body_;

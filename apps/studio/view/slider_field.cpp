@@ -27,6 +27,14 @@ QString NumberBox::textFromValue(double value) const {
     return text;
 }
 
+QSize NumberBox::sizeHint() const {
+    // Room for all decimals, though most values have none
+    QSize size = QDoubleSpinBox::sizeHint();
+    if (decimals() > 0)
+        size.rwidth() += fontMetrics().horizontalAdvance("." + QString(decimals(), '0'));
+    return size;
+}
+
 SliderField::SliderField(const QString& name, double low, double high, int decimals, double step,
                          QWidget* parent)
     : QWidget(parent),
@@ -37,8 +45,10 @@ SliderField::SliderField(const QString& name, double low, double high, int decim
     slider_->setObjectName(name + "-slider");
     auto* layout = new QHBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
+    slider_->setMinimumWidth(3 * fontMetrics().height());
     layout->addWidget(slider_, 1);
     layout->addWidget(box_);
+    box_->setMinimumWidth(box_->sizeHint().width());
     setFocusProxy(box_);
     set_range(low, high);
 

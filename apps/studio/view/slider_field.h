@@ -14,6 +14,7 @@ class NumberBox : public QDoubleSpinBox {
   public:
     NumberBox(double low, double high, int decimals, double step, QWidget* parent = nullptr);
     QString textFromValue(double value) const override;
+    QSize sizeHint() const override;
 };
 
 /// A number as a slider and a box beside it. The box takes the name given, the slider the same with

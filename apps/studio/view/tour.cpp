@@ -21,9 +21,9 @@ struct Step {
 void set_common(StudioSettings& s) {
     s.scene = SceneKind::Surface;
     s.experiment = {};
-    s.experiment.surface.size = 256;
-    s.experiment.detector.resolution = 128;
-    s.experiment.run.jitter = 4;
+    s.experiment.surface.size = 512;
+    s.experiment.detector.resolution = 64;
+    s.experiment.run.jitter = 2;
     s.experiment.run.bounces = 8;
     s.surface_view.dome = s.surface_view.beam = s.surface_view.paths = true;
     s.surface_view.path_count = 60;
@@ -39,35 +39,35 @@ void make_gaussian(StudioSettings& s, double alpha) {
 
 constexpr std::array kSteps = {
     Step{QT_TR_NOOP("A flat mirror"),
-         QT_TR_NOOP("Surface Roughness is 0. Light falls in at 30° from the normal (layer 10), and "
-                    "all of it leaves at 30° on the other side: one bright cell of the dome, one "
+         QT_TR_NOOP("Surface Roughness is 0. Light falls in at 60° from the normal (layer 5), and "
+                    "all of it leaves at 60° on the other side: one bright cell of the dome, one "
                     "needle in the plot. The angle of reflection equals the angle of incidence."),
          [](StudioSettings& s) {
              set_common(s);
              s.experiment.surface.roughness = 0;
-             s.surface_view.current_layer = 10;
+             s.surface_view.current_layer = 5;
              s.plots.kind = PlotKind::LobePolar;
          }},
     Step{QT_TR_NOOP("A rough mirror"),
-         QT_TR_NOOP("The same light on bumps with a slope of about 0.2. Every facet is still a "
+         QT_TR_NOOP("The same light on bumps with a slope of about 0.1. Every facet is still a "
                     "perfect mirror, but each is tilted its own way: the needle has become a lobe "
                     "around the mirror direction. Rougher surfaces have wider and lower lobes; the "
-                    "energy is the same."),
+                    "energy is the same. Try it: change Alpha and draw again."),
          [](StudioSettings& s) {
              set_common(s);
-             make_gaussian(s, 0.2);
-             s.surface_view.current_layer = 10;
+             make_gaussian(s, 0.1);
+             s.surface_view.current_layer = 5;
              s.plots.kind = PlotKind::LobePolar;
          }},
     Step{QT_TR_NOOP("Light at a grazing angle"),
-         QT_TR_NOOP("Layer 3: the light comes in 72° from the normal. The lobe no longer points in "
-                    "the mirror direction but lower, towards the horizon, and is much brighter: "
-                    "facets that face the light hide those that do not, and a BRDF divides by the "
-                    "cosine. Roads shine against the sun for this reason."),
+         QT_TR_NOOP("Layer 2: the light comes in 78° from the normal, on bumps of 0.2. The lobe "
+                    "leaves the mirror direction towards the horizon and is much brighter: facets "
+                    "that face the light hide the others, and a BRDF divides by the cosine. Wet "
+                    "roads shine against the sun for this reason."),
          [](StudioSettings& s) {
              set_common(s);
              make_gaussian(s, 0.2);
-             s.surface_view.current_layer = 3;
+             s.surface_view.current_layer = 2;
              s.plots.kind = PlotKind::LobePolar;
          }},
     Step{QT_TR_NOOP("More bounces"),
@@ -84,9 +84,9 @@ constexpr std::array kSteps = {
          }},
     Step{QT_TR_NOOP("Beside Cook-Torrance"),
          QT_TR_NOOP("The formula that games and films use, drawn beside what was traced, for the "
-                    "same roughness. Close to the mirror direction both agree; the formula knows "
-                    "nothing of second bounces, and its lobe has longer tails than a Gaussian "
-                    "surface. Tick other models in the plot and move their alpha."),
+                    "same slope. Up to the mirror direction both agree. Beyond it the formula is "
+                    "too dark: its shadowing term (thesis eq. 3.6) takes too much of the light "
+                    "that leaves low. Tick Beckmann in the plot, made for Gaussian bumps."),
          [](StudioSettings& s) {
              set_common(s);
              make_gaussian(s, 0.3);
