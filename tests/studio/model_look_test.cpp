@@ -41,6 +41,7 @@ class ModelLookTest : public QObject {
     void diffuse_albedo_adds_its_colour();
     void both_sides_of_the_split_are_the_whole_pictures();
     void light_moves_and_fades();
+    void the_sky_is_seen_and_its_sun_moves();
     void reflections_light_a_bowl();
     void the_backdrop_looks_the_same_for_every_exposure();
     void the_tone_table_is_the_tone_mapping();
@@ -184,6 +185,34 @@ void ModelLookTest::light_moves_and_fades() {
     const int left = kSmall.width() / 2 - 15, right = kSmall.width() / 2 + 15;
     QVERIFY(side(dim, right) > 2 * side(dim, left));
     QVERIFY(side(from_left, left) > 2 * side(from_left, right));
+}
+
+void ModelLookTest::the_sky_is_seen_and_its_sun_moves() {
+    Bench bench;
+    bench.begin();
+    bench.set("roughness", 0.8);
+    bench.find<QComboBox>("light-kind")->setCurrentText("Sky");
+    QTRY_VERIFY_WITH_TIMEOUT(!bench.scene.stage().sight()->backdrop, 10000);
+    const Rgb above = paint(bench.scene, 1).at(kSmall.width() / 2, 1).mean;
+    QVERIFY2(above.b > above.r, "the sky is blue");
+
+    // The sun to the right, then to the left of the model
+    const int left = kSmall.width() / 2 - 15, right = kSmall.width() / 2 + 15;
+    const auto share_of_left = [&] {
+        const Film film = paint(bench.scene, 16);
+        const double l = luminance(film.at(left, kSmall.height() / 2).mean);
+        const double r = luminance(film.at(right, kSmall.height() / 2).mean);
+        return l / (l + r);
+    };
+    const auto lights = [&] { return bench.scene.stage().sight()->scene.lights; };
+    auto before = lights();
+    bench.set("sun-azimuth", 90);
+    QTRY_VERIFY_WITH_TIMEOUT(lights() != before, 10000);
+    QVERIFY(share_of_left() < 0.4);
+    before = lights();
+    bench.set("sun-azimuth", 270);
+    QTRY_VERIFY_WITH_TIMEOUT(lights() != before, 10000);
+    QVERIFY(share_of_left() > 0.6);
 }
 
 void ModelLookTest::reflections_light_a_bowl() {

@@ -156,8 +156,15 @@ void ModelSceneTest::nothing_drawn_is_said() {
     QCOMPARE(bench.scene.stage().message(), sentence);
     QVERIFY(is_black(paint(bench.scene).at(kSmall.width() / 2, kSmall.height() / 2).mean));
 
+    // Asked again, it is said again
+    bench.change([](ModelView& view) { view.brdf_runs = false; });
+    QVERIFY(bench.scene.stage().message().isEmpty());
+    bench.change([](ModelView& view) { view.brdf_runs = true; });
+    QCOMPARE(bench.scene.stage().message(), sentence);
+    QCOMPARE(bench.complaints.size(), 2);
+
     bench.change([&](ModelView& view) { view.result = "nowhere.asperity"; });
-    QTRY_COMPARE(bench.complaints.size(), 2);
+    QTRY_COMPARE(bench.complaints.size(), 3);
     QVERIFY(bench.complaints.last().startsWith("nowhere.asperity: "));
 }
 
@@ -171,6 +178,8 @@ void ModelSceneTest::layers_drawn_are_worn() {
         s.model_view.brdf.type = BrdfType::Simulated;
     });
     bench.workbench.draw_to_textures();
+    QTRY_VERIFY(bench.workbench.drawing().state() == Drawing::State::Drawing);
+    QVERIFY(bench.scene.stage().message().contains("still being drawn"));
     QTRY_VERIFY_WITH_TIMEOUT(bench.workbench.drawing().result() != nullptr, 60000);
     QTRY_VERIFY_WITH_TIMEOUT(bench.scene.stage().message().isEmpty(), 60000);
     const auto sight = bench.scene.stage().sight();

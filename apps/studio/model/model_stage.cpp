@@ -59,6 +59,7 @@ ModelStage::ModelStage(Workbench& workbench, QObject* parent)
     connect(&model_, &LoadedModel::failed, this, &ModelStage::tell);
     connect(&lights_, &SceneLights::changed, this, &ModelStage::see_anew);
     connect(&brdfs_, &WornBrdfs::changed, this, &ModelStage::see_anew);
+    connect(&brdfs_, &WornBrdfs::told, this, &ModelStage::tell);
     connect(&model_, &LoadedModel::failed, &workbench, &Workbench::complaint);
     connect(&lights_, &SceneLights::failed, &workbench, &Workbench::complaint);
     connect(&brdfs_, &WornBrdfs::failed, &workbench, &Workbench::complaint);

@@ -62,6 +62,7 @@ WornBrdfs::WornBrdfs(Drawing& drawing, QObject* parent)
       background_(this, [this](const QString& sentence) { give_up(sentence); }) {
     const auto look_again = [this] { wear(view_); };
     connect(&drawing_, &Drawing::completed, this, look_again);
+    connect(&drawing_, &Drawing::state_changed, this, &WornBrdfs::told);
     connect(&drawing_, &Drawing::layers_changed, this, [look_again](int number) {
         if (number == 0) look_again();  // cleared, or read from a file
     });
@@ -70,10 +71,8 @@ WornBrdfs::WornBrdfs(Drawing& drawing, QObject* parent)
 void WornBrdfs::wear(const ModelView& view) {
     view_ = view;
     if (!view.brdf_runs || !wears_simulated(view)) {
-        if (background_.busy()) {
-            background_.cancel();
-            wanted_.reset();
-        }
+        background_.cancel();
+        wanted_.reset();
         trouble_.clear();
         return;
     }
@@ -94,9 +93,8 @@ void WornBrdfs::want(const Source& source) {
     const auto known = std::find_if(made_.begin(), made_.end(),
                                     [&](const Simulated& s) { return s.source == source; });
     if (source.drawn == nullptr && source.file.empty()) {
-        give_up(drawing_.state() == Drawing::State::Idle
-                    ? tr("draw textures in the scene Microfacets Surface first, or open a result")
-                    : tr("the textures are still being drawn: the simulated BRDF follows"));
+        if (drawing_.state() == Drawing::State::Idle) emit failed(nothing_drawn());
+        emit changed();
     } else if (known != made_.end()) {
         std::rotate(made_.begin(), known, known + 1);
         emit changed();
@@ -137,6 +135,17 @@ void WornBrdfs::give_up(const QString& sentence) {
     trouble_ = sentence;
     emit failed(sentence);
     emit changed();
+}
+
+QString WornBrdfs::nothing_drawn() const {
+    return drawing_.state() == Drawing::State::Idle
+               ? tr("draw textures in the scene Microfacets Surface first, or open a result")
+               : tr("the textures are still being drawn: the simulated BRDF follows");
+}
+
+QString WornBrdfs::trouble() const {
+    const bool nothing = wanted_ && wanted_->drawn == nullptr && wanted_->file.empty();
+    return nothing ? nothing_drawn() : trouble_;
 }
 
 const WornBrdfs::Simulated* WornBrdfs::worn() const {

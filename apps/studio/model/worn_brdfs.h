@@ -41,10 +41,11 @@ class WornBrdfs : public QObject {
     bool busy() const { return background_.busy(); }
     Progress progress() const { return run_ != nullptr ? run_->progress() : Progress{}; }
     /// Why there is no simulated BRDF though one is wanted; empty when there is, or soon will be.
-    const QString& trouble() const { return trouble_; }
+    QString trouble() const;
 
   signals:
     void changed();
+    void told();  ///< trouble() may be another
     void failed(const QString& sentence);
 
   private:
@@ -65,6 +66,7 @@ class WornBrdfs : public QObject {
     void want(const Source& source);
     void take(const Simulated& made);
     void give_up(const QString& sentence);
+    QString nothing_drawn() const;
     const Simulated* worn() const;
 
     Drawing& drawing_;

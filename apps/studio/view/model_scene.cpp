@@ -90,7 +90,11 @@ void ModelScene::see(bool moving) {
         seen_ = has_model();
         viewport_->set_picture(seen_ ? picture() : Viewport::Picture());
     }
-    if (seen_ && isVisible()) viewport_->refresh(moving);  // else showEvent() comes back to it
+    if (!isVisible()) {
+        viewport_->painter().stop();  // what nobody sees need not be painted
+    } else if (seen_) {
+        viewport_->refresh(moving);
+    }
 }
 
 Viewport::Picture ModelScene::picture() const {
@@ -110,7 +114,7 @@ void ModelScene::showEvent(QShowEvent* event) {
 
 void ModelScene::hideEvent(QHideEvent* event) {
     QWidget::hideEvent(event);
-    viewport_->painter().stop();  // what nobody sees need not get better
+    viewport_->painter().stop();
 }
 
 void ModelScene::paint_over(QPainter& painter) const {
