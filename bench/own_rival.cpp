@@ -7,6 +7,7 @@
 #include <asperity/core/directions.h>
 #include <asperity/core/energy.h>
 #include <asperity/gonio/follow.h>
+#include <asperity/gonio/known_facets.h>
 
 #include <algorithm>
 
@@ -45,7 +46,10 @@ class OwnRival : public Rival {
             std::max(std::min(kBatches, rays), (rays + kLargestBatch - 1) / kLargestBatch);
         const int orders = DetectorSettings{}.orders;
         const Incidence light{1, radians(workload.theta_deg), radians(kPhiDeg), false};
-        const Scene scene{tracer_, fresnel_, detector_, workload.bounces, false};
+        Scene scene{tracer_, fresnel_, detector_, workload.bounces, false};
+        KnownFacets known;
+        if (KnownFacets::pay(tracer_, rays)) known = KnownFacets(scene, light, Run(1));
+        scene.known = &known;
         LayerSums layer_sums(detector_.cells(), 1, orders, workload.bounces,
                              (rays + batches - 1) / batches);
         Follower follower;

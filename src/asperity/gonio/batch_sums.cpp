@@ -40,19 +40,17 @@ void BatchSums::escape(const PerPath<std::int32_t>& cells, const PerPath<std::in
     const std::size_t bounce = index(order - 1), kept = std::min(bounce, orders_ - 1);
     const std::size_t stride = orders_ * channels_;
     // Plain pointers: this is the innermost loop that is not done in lanes
-    std::uint8_t* is_touched = is_touched_.data();
-    for (std::size_t k = 0; k < count; ++k) {
-        const std::int32_t cell = cells[k];
-        if (is_touched[cell]) continue;
-        is_touched[cell] = 1;
-        touched_.push_back(static_cast<std::uint32_t>(cell));
-    }
     if (weights.empty()) {
-        std::uint64_t* energy = energy_.data() + kept;
-        for (std::size_t k = 0; k < count; ++k) energy[index(cells[k]) * stride] += kRayEnergy;
+        std::uint64_t* sums = energy_.data() + kept;
+        for (std::size_t k = 0; k < count; ++k) {
+            std::uint64_t& sum = sums[index(cells[k]) * stride];
+            if (sum == 0) touch(index(cells[k]));
+            sum += kRayEnergy;
+        }
         escaped_by_bounce_[bounce] += count * kRayEnergy;
         return;
     }
+    for (std::size_t k = 0; k < count; ++k) touch(index(cells[k]));
     for (std::size_t c = 0; c < channels_; ++c) {
         const PerPath<float>& weight = weights[c];
         std::uint64_t* sums = energy_.data() + kept * channels_ + c;
@@ -65,6 +63,12 @@ void BatchSums::escape(const PerPath<std::int32_t>& cells, const PerPath<std::in
         escaped_by_bounce_[c * bounces_ + bounce] += sum;
         absorbed_[c] += count * kRayEnergy - sum;
     }
+}
+
+void BatchSums::touch(std::size_t cell) {
+    if (is_touched_[cell]) return;
+    is_touched_[cell] = 1;
+    touched_.push_back(static_cast<std::uint32_t>(cell));
 }
 
 void BatchSums::settle(std::vector<std::uint64_t>& account, const PerPath<std::int32_t>& paths,

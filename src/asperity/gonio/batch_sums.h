@@ -34,6 +34,8 @@ class BatchSums {
 
   private:
     friend class LayerSums;
+    /// Remembers that a cell holds energy.
+    void touch(std::size_t cell);
     /// Books the paths' energy under `account` and the rest of it as absorbed.
     void settle(std::vector<std::uint64_t>& account, const PerPath<std::int32_t>& paths,
                 std::size_t count, const Weights& weights);

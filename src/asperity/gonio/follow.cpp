@@ -2,6 +2,7 @@
 #include <asperity/gonio/follow.h>
 
 #include <asperity/core/directions.h>
+#include <asperity/gonio/known_facets.h>
 #include <asperity/gonio/path_kernels.h>
 
 #include <algorithm>
@@ -21,6 +22,8 @@ void Follower::follow(const Scene& scene, const LaunchBatch& batch, std::uint64_
     launch(scene, batch, begin, end);
     sums.rays += end - begin;
     sums.segments += end - begin;
+    // Some facets are known to send the light out
+    settle_known(scene, sums);
     for (int reflections = 0;; ++reflections) {
         // Sort what has left by direction
         settle(scene, reflections, sums);
@@ -53,15 +56,9 @@ void Follower::launch(const Scene& scene, const LaunchBatch& batch, std::uint64_
 void Follower::launch_rows(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
                            std::uint64_t end) {
     const WideTracer& tracer = scene.tracer;
-    Vec3 d = -from_spherical(batch.incidence().theta, batch.incidence().phi);
-    if (tracer.mirrored()) d.x = -d.x;
-    wave_.arriving().x[0] = static_cast<float>(d.x);
-    wave_.arriving().y[0] = static_cast<float>(d.y);
-    wave_.arriving().z[0] = static_cast<float>(d.z);
-    for (std::size_t k = 0; k < end - begin; ++k)
-        wave_.arriving().path[k] = static_cast<std::int32_t>(k);
-
+    const FacetAnswers known = scene.known ? scene.known->cells() : nullptr;
     tracer.clear(wave_);
+    const Vec3 d = set_parallel(tracer, batch.incidence(), end - begin, wave_);
     for (std::uint64_t k = begin; k < end;) {
         const LaunchRow row = batch.row(k);
         const auto count = static_cast<int>(std::min(row.count, end - k));
@@ -71,14 +68,25 @@ void Follower::launch_rows(const Scene& scene, const LaunchBatch& batch, std::ui
         const int i = tracer.mirrored() ? (2 * cells - row.i - count) % cells : row.i;
         const double u = tracer.mirrored() ? 1 - row.u : row.u;
         if (d.x == 0 && d.y == 0) {
-            tracer.launch_down(u, row.v, i, row.j, count, first, wave_);
+            tracer.launch_down(u, row.v, i, row.j, count, first, known, wave_);
         } else {
             line_.start(tracer.heights(), u, row.v, double{tracer.max_height()}, d);
-            tracer.launch(line_, i, row.j, count, first, wave_);
+            tracer.launch(line_, i, row.j, count, first, known, wave_);
         }
         k += static_cast<std::uint64_t>(count);
     }
     tracer.land(wave_);
+}
+
+Vec3 set_parallel(const WideTracer& tracer, const Incidence& light, std::size_t count,
+                  PathWave& wave) {
+    Vec3 d = -from_spherical(light.theta, light.phi);
+    if (tracer.mirrored()) d.x = -d.x;
+    wave.arriving().x[0] = static_cast<float>(d.x);
+    wave.arriving().y[0] = static_cast<float>(d.y);
+    wave.arriving().z[0] = static_cast<float>(d.z);
+    for (std::size_t k = 0; k < count; ++k) wave.arriving().path[k] = static_cast<std::int32_t>(k);
+    return d;
 }
 
 void Follower::launch_each(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
@@ -95,10 +103,21 @@ void Follower::launch_each(const Scene& scene, const LaunchBatch& batch, std::ui
     scene.tracer.enter(rays_, wave_);
 }
 
+void Follower::settle_known(const Scene& scene, BatchSums& sums) {
+    const AnsweredRays& answered = wave_.answered;
+    if (answered.count == 0) return;
+    for (std::size_t c = 0; c < weights_.size(); ++c)
+        for (std::size_t k = 0; k < answered.count; ++k)
+            weights_[c][static_cast<std::size_t>(answered.ray[k])] =
+                scene.known->reflectance(c, static_cast<std::size_t>(answered.facet[k]));
+    sums.escape(answered.answer, answered.ray, answered.count, 1, weights_);
+    sums.reflections += answered.count;
+    sums.segments += answered.count;
+}
+
 void Follower::reflect(const Scene& scene, bool parallel) {
-    const PaddedHeights& heights = scene.tracer.heights();
-    reflect_paths(wave_.points, wave_.arriving(), parallel, static_cast<float>(1 / heights.dx()),
-                  static_cast<float>(1 / heights.dy()), wave_.leaving(), cosine_);
+    reflect_paths(wave_.points, wave_.arriving(), parallel, scene.tracer.heights(), wave_.leaving(),
+                  cosine_);
     // Each facet takes its share
     const std::size_t count = wave_.points.count;
     if (weights_.empty()) return;

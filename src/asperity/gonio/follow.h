@@ -12,14 +12,22 @@
 
 namespace asperity {
 
+class KnownFacets;
+
 /// What the rays of a layer have in common on their way.
 struct Scene {
     const WideTracer& tracer;
     const Fresnel& fresnel;
     const Detector& detector;
-    int bounces = 1;                ///< Ray Bounces B
-    bool relative_azimuth = false;  ///< sort by the azimuth relative to the light's
+    int bounces = 1;                     ///< Ray Bounces B
+    bool relative_azimuth = false;       ///< sort by the azimuth relative to the light's
+    const KnownFacets* known = nullptr;  ///< of this light; may be null
 };
+
+/// Gives paths 0 .. count - 1 the direction of the light, all the same one: arriving()[0]. Returns
+/// it in the frame of the tracer.
+Vec3 set_parallel(const WideTracer& tracer, const Incidence& light, std::size_t count,
+                  PathWave& wave);
 
 /// Follows rays from facet to facet until they leave; the working memory of one thread.
 class Follower {
@@ -39,6 +47,7 @@ class Follower {
                      std::uint64_t end);
     void launch_each(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
                      std::uint64_t end);
+    void settle_known(const Scene& scene, BatchSums& sums);
     void reflect(const Scene& scene, bool parallel);
     void settle(const Scene& scene, int reflections, BatchSums& sums);
 

@@ -8,6 +8,7 @@
 #include <asperity/core/parallel.h>
 #include <asperity/core/version.h>
 #include <asperity/gonio/follow.h>
+#include <asperity/gonio/known_facets.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -173,7 +174,8 @@ class Gonioreflectometer {
               std::vector<std::string>& notes) {
         LayerSums sums = layer_sums();
         std::uint64_t batches = plan_.batches;
-        trace_batches(light, stream, 0, batches, sums);
+        const KnownFacets known = known_facets(light);
+        trace_batches(light, known, stream, 0, batches, sums);
 
         // Refine until the errors are small enough
         while (experiment_.run.until > 0 && run_.keep_going() && !accurate(sums)) {
@@ -188,7 +190,7 @@ class Gonioreflectometer {
             }
             rays_ahead_ += more * plan_.largest();
             run_.set_total(rays_ahead_);
-            trace_batches(light, stream, batches, batches + more, sums);
+            trace_batches(light, known, stream, batches, batches + more, sums);
             batches += more;
         }
 
@@ -198,9 +200,10 @@ class Gonioreflectometer {
     }
 
     /// Traces the batches [begin, end), each by one thread, and adds them to `sums`.
-    void trace_batches(const Incidence& light, std::uint32_t stream, std::uint64_t begin,
-                       std::uint64_t end, LayerSums& sums) {
+    void trace_batches(const Incidence& light, const KnownFacets& known, std::uint32_t stream,
+                       std::uint64_t begin, std::uint64_t end, LayerSums& sums) {
         std::mutex mutex;
+        const Scene scene = scene_of(light, &known);
         parallel_for(static_cast<std::size_t>(end - begin), run_.threads(), [&](std::size_t k) {
             const std::uint64_t b = begin + k;
             if (!run_.keep_going()) return;
@@ -210,8 +213,6 @@ class Gonioreflectometer {
                                     experiment_.run.launch, plan_.rays_of(b), experiment_.run.seed,
                                     stream, static_cast<std::uint32_t>(b));
             // Follow the rays until they leave, and sort them by direction
-            const Scene scene{*tracer_, fresnel_, detector_, experiment_.run.bounces,
-                              light.isotropic};
             for (std::uint64_t first = 0; first < batch.rays(); first += Follower::kMost) {
                 if (!run_.keep_going()) return;
                 const std::uint64_t last = std::min(first + Follower::kMost, batch.rays());
@@ -226,6 +227,18 @@ class Gonioreflectometer {
             give_back(std::move(work));
             preview_.show(light, sums, mutex);
         });
+    }
+
+    Scene scene_of(const Incidence& light, const KnownFacets* known) const {
+        return {*tracer_, fresnel_, detector_, experiment_.run.bounces, light.isotropic, known};
+    }
+    /// Many rays meet the same facets: what becomes of them is worked out once, where it is
+    /// certain.
+    KnownFacets known_facets(const Incidence& light) const {
+        const bool in_rows =
+            experiment_.run.launch == LaunchPattern::LowDiscrepancy && !light.isotropic;
+        if (!in_rows || !KnownFacets::pay(*tracer_, plan_.rays)) return {};
+        return {scene_of(light, nullptr), light, run_};
     }
 
     bool accurate(const LayerSums& sums) const {

@@ -104,7 +104,9 @@ HWY_EXPORT(ReflectAny);
 HWY_EXPORT(FindCells);
 
 void reflect_paths(const FacetPoints& points, const Directions& arriving, bool parallel,
-                   float per_x, float per_y, Directions& leaving, PerPath<float>& cosine) {
+                   const PaddedHeights& heights, Directions& leaving, PerPath<float>& cosine) {
+    const auto per_x = static_cast<float>(1 / heights.dx());
+    const auto per_y = static_cast<float>(1 / heights.dy());
     if (parallel)
         HWY_DYNAMIC_DISPATCH(ReflectParallel)(points, arriving, per_x, per_y, leaving, cosine);
     else

@@ -17,6 +17,7 @@
 namespace asperity {
 
 HWY_EXPORT(LaunchSideBySide);
+HWY_EXPORT(PartAnswered);
 HWY_EXPORT(IdentifyLaunched);
 HWY_EXPORT(LaunchStraightDown);
 HWY_EXPORT(PartFree);
@@ -30,12 +31,18 @@ void launch_side_by_side(const LaunchPlace& place, LaunchLine& line, int i, int 
                          int first, LaunchHits& hits) {
     HWY_DYNAMIC_DISPATCH(LaunchSideBySide)(place, line, i, j, count, first, hits);
 }
+void part_answered(const WideGrid& grid, const LaunchLine& line, FacetAnswers answers,
+                   LaunchHits& launched, AnsweredRays& answered) {
+    HWY_DYNAMIC_DISPATCH(PartAnswered)(grid, line, answers, launched, answered);
+}
 void identify_launched(const LaunchHits& launched, const LaunchLine& line, TriangleHits& hits) {
     HWY_DYNAMIC_DISPATCH(IdentifyLaunched)(launched, line, hits);
 }
 void launch_straight_down(const WideGrid& grid, float u, float v, int i, int j, int count,
-                          int first, FacetPoints& points) {
-    HWY_DYNAMIC_DISPATCH(LaunchStraightDown)(grid, u, v, i, j, count, first, points);
+                          int first, FacetAnswers answers, FacetPoints& points,
+                          AnsweredRays& answered) {
+    HWY_DYNAMIC_DISPATCH(LaunchStraightDown)
+    (grid, u, v, i, j, count, first, answers, points, answered);
 }
 void part_free(const WideGrid& grid, FacetPoints& points, Directions& directions,
                Escapes& escapes) {

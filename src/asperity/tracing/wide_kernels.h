@@ -31,9 +31,12 @@ struct PathWaveWork {
 /// wide_launch-inl.h
 void launch_side_by_side(const LaunchPlace& place, LaunchLine& line, int i, int j, int count,
                          int first, LaunchHits& hits);
+void part_answered(const WideGrid& grid, const LaunchLine& line, FacetAnswers answers,
+                   LaunchHits& launched, AnsweredRays& answered);
 void identify_launched(const LaunchHits& launched, const LaunchLine& line, TriangleHits& hits);
 void launch_straight_down(const WideGrid& grid, float u, float v, int i, int j, int count,
-                          int first, FacetPoints& points);
+                          int first, FacetAnswers answers, FacetPoints& points,
+                          AnsweredRays& answered);
 /// wide_leave-inl.h
 void part_free(const WideGrid& grid, FacetPoints& points, Directions& directions, Escapes& escapes);
 void set_out(const WideGrid& grid, const FacetPoints& points, const Directions& directions,

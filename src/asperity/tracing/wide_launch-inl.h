@@ -97,6 +97,57 @@ void LaunchSideBySide(const LaunchPlace& place, LaunchLine& line, int i, int j, 
     }
 }
 
+/// The answers for facets, by their corners and sides; -1 in lanes that are not valid.
+struct Answers {
+    Ints facet, answer;
+    Mask known;
+};
+HWY_INLINE Answers answers_of(const WideGrid& grid, const Ground<true>& ground, Mask valid,
+                              FacetAnswers answers, Ints corner, Floats side) {
+    const Ints cell = ground.wrap(cell_of(corner, side));
+    const Ints plane =
+        hn::And(hn::BroadcastSignBit(hn::BitCast(kInt, side)), all(grid.cells_x * grid.cells_y));
+    const Ints first = all(grid.middle_y * grid.cells_x + grid.middle_x);
+    Answers a;
+    a.facet = only(valid, hn::Add(hn::Add(index_of(cell, grid.cells_x), first), plane));
+    a.answer = gather(answers, a.facet);
+    a.known = hn::AndNot(negative(hn::BitCast(kFloat, a.answer)), valid);
+    return a;
+}
+HWY_INLINE void pack_answered(const Answers& a, Ints ray, AnsweredRays& answered) {
+    const Packer pack(a.known);
+    pack(a.answer, answered.answer, answered.count);
+    pack(a.facet, answered.facet, answered.count);
+    pack(ray, answered.ray, answered.count);
+    answered.count += pack.count;
+}
+
+/// Takes the rays out whose facets have an answer; the others move up.
+void PartAnswered(const WideGrid& grid, const LaunchLine& line, FacetAnswers answers,
+                  LaunchHits& launched, AnsweredRays& answered) {
+    const Ground<true> ground(grid);
+    const LaunchLine::Triangle* triangles = line.triangles();
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < launched.count; k += kLanes) {
+        const Mask valid = first_lanes(k, launched.count);
+        const Ints triangle = only(valid, load(launched.triangle, k));
+        const Ints start = load(launched.cell, k), ray = load(launched.ray, k);
+        const Ints corner = gather_by_lane<std::int32_t>(
+            triangle, [=](std::int64_t n) { return triangles[n].corner; });
+        const Floats side =
+            gather_by_lane<float>(triangle, [=](std::int64_t n) { return triangles[n].side; });
+        const Answers a = answers_of(grid, ground, valid, answers, plus(start, corner), side);
+        pack_answered(a, ray, answered);
+
+        const Packer pack(hn::AndNot(a.known, valid));
+        pack(triangle, launched.triangle, kept);
+        pack(start, launched.cell, kept);
+        pack(ray, launched.ray, kept);
+        kept += pack.count;
+    }
+    launched.count = kept;
+}
+
 /// Looks up the triangles that were hit, and appends them to `hits`.
 void IdentifyLaunched(const LaunchHits& launched, const LaunchLine& line, TriangleHits& hits) {
     const LaunchLine::Triangle* triangles = line.triangles();
@@ -125,33 +176,40 @@ void IdentifyLaunched(const LaunchHits& launched, const LaunchLine& line, Triang
     hits.count += launched.count;
 }
 
-/// Rays straight down meet the facet below them; nothing to fly.
+/// Rays straight down meet the facet below them; nothing to fly. Appends them to `points`, and
+/// those whose facet has an answer to `answered`.
 void LaunchStraightDown(const WideGrid& grid, float u, float v, int i, int j, int count, int first,
-                        FacetPoints& points) {
+                        FacetAnswers answers, FacetPoints& points, AnsweredRays& answered) {
     const Ground<true> ground(grid);
     const bool upper = u + v >= 1;
     const Floats side = all(upper ? -1.0f : 1.0f);
     const int corner = upper ? 1 : 0;
     for (int k = 0; k < count; k += static_cast<int>(kLanes)) {
-        const Ints lane = hn::Iota(kInt, k);
+        const Ints lane = hn::Iota(kInt, k), ray = hn::Add(lane, all(first));
         const Ints x = hn::Add(lane, all(i + corner - grid.middle_x));
         const Ints vertex = ground.wrap(
             hn::Or(hn::And(x, all(0xffff)), all(pack_vertex(0, j + corner - grid.middle_y))));
+        Mask open = first_lanes(static_cast<std::size_t>(k), static_cast<std::size_t>(count));
+        if (answers) {
+            const Answers a = answers_of(grid, ground, open, answers, vertex, side);
+            pack_answered(a, ray, answered);
+            open = hn::AndNot(a.known, open);
+            if (hn::AllFalse(kFloat, open)) continue;
+        }
         const Floats height = ground.height(vertex);
-        const auto append = [&](auto value, auto& to) HWY_ATTR {
-            hn::StoreU(value, hn::DFromV<decltype(value)>(),
-                       to.values + points.count + static_cast<std::size_t>(k));
-        };
-        append(vertex, points.corner);
-        append(side, points.side);
-        append(all(upper ? 1 - u : u), points.u);
-        append(all(upper ? 1 - v : v), points.v);
-        append(height, points.height);
-        append(hn::Sub(ground.height(plus(vertex, corner_u(side))), height), points.rise_u);
-        append(hn::Sub(ground.height(plus(vertex, corner_v(side))), height), points.rise_v);
-        append(hn::Add(lane, all(first)), points.ray);
+        const Packer pack(open);
+        pack(vertex, points.corner, points.count);
+        pack(side, points.side, points.count);
+        pack(all(upper ? 1 - u : u), points.u, points.count);
+        pack(all(upper ? 1 - v : v), points.v, points.count);
+        pack(height, points.height, points.count);
+        pack(hn::Sub(ground.height(plus(vertex, corner_u(side))), height), points.rise_u,
+             points.count);
+        pack(hn::Sub(ground.height(plus(vertex, corner_v(side))), height), points.rise_v,
+             points.count);
+        pack(ray, points.ray, points.count);
+        points.count += pack.count;
     }
-    points.count += static_cast<std::size_t>(count);
 }
 
 }  // namespace asperity::HWY_NAMESPACE

@@ -37,24 +37,25 @@ std::size_t WideTracer::memory_bytes() const {
 }
 
 void WideTracer::clear(PathWave& wave) const {
-    wave.points.count = wave.escapes.count = wave.edge_count = wave.stuck_count = 0;
+    wave.answered.count = wave.points.count = wave.escapes.count = wave.edge_count =
+        wave.stuck_count = 0;
     wave.work_->hits.count = 0;
 }
 
-void WideTracer::launch(LaunchLine& line, int i, int j, int count, int first,
+void WideTracer::launch(LaunchLine& line, int i, int j, int count, int first, FacetAnswers answers,
                         PathWave& wave) const {
     LaunchHits& launched = wave.work_->launched;
     TriangleHits& hits = wave.work_->hits;
     launched.count = 0;
     launch_side_by_side({&grid_, &heights_, &*tops_}, line, i, j, count, first, launched);
-
+    if (answers) part_answered(grid_, line, answers, launched, wave.answered);
     identify_launched(launched, line, hits);
 }
 
 void WideTracer::launch_down(double u, double v, int i, int j, int count, int first,
-                             PathWave& wave) const {
+                             FacetAnswers answers, PathWave& wave) const {
     launch_straight_down(grid_, static_cast<float>(u), static_cast<float>(v), i, j, count, first,
-                         wave.points);
+                         answers, wave.points, wave.answered);
 }
 
 void WideTracer::land(PathWave& wave) const {
@@ -121,6 +122,13 @@ void WideTracer::leave(PathWave& wave) const {
     part_free(grid_, wave.points, wave.arriving(), wave.escapes);
     set_out(grid_, wave.points, wave.arriving(), nullptr, wave.work_->walkers);
     walk(wave, false);
+}
+
+void WideTracer::part(PathWave& wave) const {
+    wave.escapes.count = 0;
+    wave.turn();
+    part_free(grid_, wave.points, wave.arriving(), wave.escapes);
+    wave.points.count = 0;
 }
 
 void WideTracer::walk(PathWave& wave, bool from_above) const {

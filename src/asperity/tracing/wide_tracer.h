@@ -9,6 +9,7 @@
 #include <asperity/tracing/tracer.h>
 #include <asperity/tracing/wide.h>
 #include <asperity/tracing/wide_grid.h>
+#include <asperity/tracing/wide_launch.h>
 
 #include <cstdint>
 #include <memory>
@@ -31,6 +32,7 @@ class PathWave {
     /// The directions the paths at `points` came with, and after a reflection go on with.
     Directions& arriving() { return directions_[turn_]; }
     Directions& leaving() { return directions_[1 - turn_]; }
+    AnsweredRays answered;        ///< launched rays whose facets had an answer
     FacetPoints points;           ///< paths that have met a facet; ray: index into arriving
     Escapes escapes;              ///< paths that are free, by direction
     std::size_t edge_count = 0;   ///< paths lost through the side of a finite patch,
@@ -77,9 +79,12 @@ class WideTracer {
     /// Launches `count` rays along the line from the cells (i, j), (i + 1, j) ... and moves them to
     /// their first facets: wave.points, ray `first + k` for the k-th. Periodic surfaces only; i, j
     /// inside; the wave holds at most kWave rays.
-    void launch(LaunchLine& line, int i, int j, int count, int first, PathWave& wave) const;
+    /// Rays onto facets with an answer go to wave.answered; `answers` may be null.
+    void launch(LaunchLine& line, int i, int j, int count, int first, FacetAnswers answers,
+                PathWave& wave) const;
     /// The same for rays straight down onto the place (u, v) of the cells.
-    void launch_down(double u, double v, int i, int j, int count, int first, PathWave& wave) const;
+    void launch_down(double u, double v, int i, int j, int count, int first, FacetAnswers answers,
+                     PathWave& wave) const;
     /// Finishes a launch: the rays stand at wave.points.
     void land(PathWave& wave) const;
     /// Moves rays from free space, at most kWave, to their first facets; path k is ray k.
@@ -88,6 +93,10 @@ class WideTracer {
     /// or out; these directions become the arriving ones. The lists of those that ended are made
     /// anew.
     void leave(PathWave& wave) const;
+
+    /// Of the paths at wave.points along wave.leaving(), finds those that are free for certain by
+    /// the facet they leave, wherever on it they start: wave.escapes. Forgets the others.
+    void part(PathWave& wave) const;
 
     /// Advances each ray to its next facet or out, as Tracer::trace; for tests and single rays.
     void trace(std::span<Ray> rays, std::span<RayEnd> ends) const;

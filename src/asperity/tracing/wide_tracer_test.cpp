@@ -40,11 +40,11 @@ void follow_row(const Heightfield& s, const Vec3& d, double u, double v, int i, 
     PathWave wave;
     wide.clear(wave);
     if (d.x == 0 && d.y == 0) {
-        wide.launch_down(u, v, i, j, kCount, 0, wave);
+        wide.launch_down(u, v, i, j, kCount, 0, nullptr, wave);
     } else {
         LaunchLine line;
         line.start(wide.heights(), u, v, double{wide.max_height()}, d);
-        wide.launch(line, i, j, kCount, 0, wave);
+        wide.launch(line, i, j, kCount, 0, nullptr, wave);
     }
     wide.land(wave);
     ASSERT_EQ(wave.points.count, kCount);
