@@ -27,6 +27,7 @@ namespace {
 constexpr int kSizeOfAll = 512;
 /// Paths per row that launch by themselves: one per cell, but no more than this.
 constexpr std::uint64_t kOwnPaths = 1 << 24;
+constexpr std::uint64_t kOwnPerCell = 8;
 
 struct Options {
     std::vector<std::string> surfaces;
@@ -61,10 +62,11 @@ std::vector<Row> race_on(const Heightfield& surface, const Options& options, int
     RaceSettings settings;
     settings.thetas_deg = options.thetas;
     settings.points = options.paths;
-    settings.own_paths = options.own_paths > 0
-                             ? options.own_paths
-                             : std::max<std::uint64_t>(static_cast<std::uint64_t>(options.paths),
-                                                       std::min(surface.cell_count(), kOwnPaths));
+    settings.own_paths =
+        options.own_paths > 0
+            ? options.own_paths
+            : std::max<std::uint64_t>(static_cast<std::uint64_t>(options.paths),
+                                      std::min(kOwnPerCell * surface.cell_count(), kOwnPaths));
     settings.repetitions = options.repetitions;
     settings.bounces = options.bounces;
     return race(surface, rivals, settings);
@@ -132,8 +134,9 @@ void add_options(CLI::App& app, Options& options) {
         ->check(CLI::Range(kBlock * kBlock, 1 << 30))
         ->check(MultipleOf(kBlock * kBlock))
         ->capture_default_str();
-    app.add_option("--own-paths", options.own_paths,
-                   "our paths per row; default: one a cell, at least --paths, at most 2^24");
+    app.add_option(
+        "--own-paths", options.own_paths,
+        "our paths per row; default: 8 a cell as in the demo, at least --paths, at most 2^24");
     add_repetitions(app, options.repetitions);
     app.add_option("--bounces", options.bounces, "reflections a path may make")
         ->check(CLI::Range(1, 1000))
