@@ -25,9 +25,8 @@ namespace {
 
 /// Rows of docs/performance.md: all surfaces at this size, the smooth ones at larger sizes too.
 constexpr int kSizeOfAll = 512;
-/// Paths per row that launch by themselves: one per cell, but no more than this.
-constexpr std::uint64_t kOwnPaths = 1 << 24;
-constexpr std::uint64_t kOwnPerCell = 8;
+/// Paths per row that launch by themselves: per cell, as in the demo, and at most.
+constexpr std::uint64_t kOwnPerCell = 8, kOwnPaths = 1 << 24;
 
 struct Options {
     std::vector<std::string> surfaces;
