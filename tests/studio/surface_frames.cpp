@@ -6,6 +6,7 @@
 #include <QApplication>
 #include <QElapsedTimer>
 #include <QMouseEvent>
+#include <QTimer>
 
 #include <fmt/format.h>
 
@@ -47,17 +48,17 @@ void measure(SurfaceScene& scene, const char* name) {
     const double cpu = cpu_seconds();
     send(view, QEvent::MouseButtonPress, {640, 300}, Qt::LeftButton);
     double fps = 0, ms = 0;
-    while (clock.elapsed() < kMilliseconds) {
+    QTimer mouse;
+    QObject::connect(&mouse, &QTimer::timeout, [&] {
         const double t = 1e-3 * static_cast<double>(clock.elapsed());
         send(view, QEvent::MouseMove, {640 + 200 * t, 300 + 60 * std::sin(3 * t)}, Qt::LeftButton);
-        QElapsedTimer tick;
-        tick.start();
-        while (tick.elapsed() < 8) QCoreApplication::processEvents(QEventLoop::AllEvents, 4);
-        if (view.frame().moving && view.painter().frames_per_second() > 0) {
-            fps = view.painter().frames_per_second();
-            ms = view.painter().milliseconds_per_frame();
-        }
-    }
+        if (!view.frame().moving) return;
+        fps = view.painter().frames_per_second();
+        ms = view.painter().milliseconds_per_frame();
+    });
+    mouse.start(8);
+    run_until([&] { return clock.elapsed() > kMilliseconds; });
+    mouse.stop();
     const double cpu_moving = cpu_seconds() - cpu;
     QObject::disconnect(counting);
     clock.restart();

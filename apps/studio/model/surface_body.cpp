@@ -87,6 +87,8 @@ SurfaceBody::Pixel SurfaceBody::lit(const WorldRay& ray, const PatchHit& hit) co
 
 bool SurfaceBody::hides(Vec3 eye, Vec3 point) const {
     const Vec3 from = frame_.to_surface(eye), to = frame_.to_surface(point);
+    // Above the highest point nothing is in the way; most of what is asked for lies there.
+    if (from.z >= view_->highest() && to.z >= view_->highest()) return false;
     const double distance = length(to - from);
     if (!(distance > 0)) return false;
     const PatchHit hit = view_->look(WorldRay{from, (1 / distance) * (to - from)});

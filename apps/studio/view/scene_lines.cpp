@@ -26,6 +26,12 @@ QColor between(const QColor& a, const QColor& b, double t) {
             mixed(a.alpha(), b.alpha())};
 }
 
+/// As it looks on black, but opaque.
+QColor on_black(const QColor& colour) {
+    const int a = colour.alpha();
+    return {colour.red() * a / 255, colour.green() * a / 255, colour.blue() * a / 255};
+}
+
 /// Cuts off what lies behind the eye; false when nothing is left.
 bool clip(const Camera& camera, Vec3& a, Vec3& b) {
     const double depth_a = asperity::dot(a - camera.position, camera.forward);
@@ -47,6 +53,9 @@ void SceneLines::line(Vec3 a, Vec3 b, const Stroke& stroke) const {
     const double length = QLineF(*from, *to).length();
     const int pieces = std::clamp(static_cast<int>(length / kPieceLength) + 1, 1, kMostPieces);
     const bool even = stroke.from == stroke.to;
+    // Without smooth edges lines are to be fast: one pixel wide, which is 0 here, and opaque, for
+    // Qt shares the work on every single line it blends among threads, at a multiple of its cost.
+    const bool smooth = painter_.testRenderHint(QPainter::Antialiasing);
 
     // Pieces of the world, so that those on the surface are told from those above it; neighbours
     // that look alike are one stroke.
@@ -59,7 +68,8 @@ void SceneLines::line(Vec3 a, Vec3 b, const Stroke& stroke) const {
             view_.project(a + (static_cast<double>(k) / pieces) * (b - a)).value_or(*to);
         QColor colour = between(stroke.from, stroke.to, (k - 0.5) / pieces);
         if (before) colour = faded(colour, stroke.hidden);
-        painter_.setPen(QPen(colour, stroke.width, Qt::SolidLine, Qt::FlatCap));
+        if (!smooth) colour = on_black(colour);
+        painter_.setPen(QPen(colour, smooth ? stroke.width : 0, Qt::SolidLine, Qt::FlatCap));
         painter_.drawLine(began, end);
         began = end;
         before = next;
@@ -73,6 +83,11 @@ void SceneLines::polyline(const std::vector<Vec3>& points, const Stroke& stroke)
 void SceneLines::dot(Vec3 at, const QColor& colour, double radius) const {
     const std::optional<QPointF> place = view_.project(at);
     if (!place || hidden(at)) return;
+    if (!painter_.testRenderHint(QPainter::Antialiasing)) {
+        painter_.fillRect(QRectF(place->x() - radius, place->y() - radius, 2 * radius, 2 * radius),
+                          colour);
+        return;
+    }
     painter_.setPen(Qt::NoPen);
     painter_.setBrush(colour);
     painter_.drawEllipse(*place, radius, radius);

@@ -60,7 +60,8 @@ SurfaceScene::SurfaceScene(Workbench& workbench, QWidget* parent)
     growing_.setInterval(kGrowMs);
     viewport_->set_home(home_of_scene());
     viewport_->set_camera_type(workbench_.settings().surface_view.camera_type);
-    viewport_->add_overlay([this](QPainter& painter, const Viewport&) { paint_lines(painter); });
+    viewport_->add_overlay(
+        [this](QPainter& painter, const Viewport&) { paint_kept_lines(painter); });
     viewport_->add_overlay([this](QPainter& painter, const Viewport&) { paint_labels(painter); });
     connect_workbench();
     connect_viewport();
@@ -112,7 +113,7 @@ void SurfaceScene::follow_settings(const StudioSettings& before) {
     if (other_layer || then.shading != now.shading)
         show_picture();
     else
-        viewport_->refresh_overlay();
+        forget_lines();
 }
 
 void SurfaceScene::take_surface() {
@@ -147,6 +148,7 @@ void SurfaceScene::take_paths() {
 }
 
 void SurfaceScene::show_picture() {
+    forget_lines();
     const SurfacePicture picture{body_, dome_, workbench_.settings().surface_view.shading,
                                  selected_facets_};
     viewport_->set_picture(
@@ -202,12 +204,41 @@ void SurfaceScene::keyPressEvent(QKeyEvent* event) {
 
 // Lines and labels
 
+/// Smooth lines cost more than a moving view can spend, and are kept while it is still: a picture
+/// that refines, or a mouse that moves over it, need not wait for them.
+void SurfaceScene::paint_kept_lines(QPainter& painter) {
+    if (viewport_->frame().moving) {
+        painter.setRenderHint(QPainter::Antialiasing, false);
+        paint_lines(painter);
+        return;
+    }
+    const Camera& camera = viewport_->shown_camera();
+    const double ratio = viewport_->devicePixelRatioF();
+    const QSize size = (QSizeF(viewport_->size()) * ratio).toSize();
+    const bool kept = !lines_.isNull() && lines_.size() == size && lines_body_ == body() &&
+                      same_camera(lines_camera_, camera);
+    if (!kept) {
+        lines_ = QImage(size, QImage::Format_ARGB32_Premultiplied);
+        lines_.setDevicePixelRatio(ratio);
+        lines_.fill(Qt::transparent);
+        lines_camera_ = camera;
+        lines_body_ = body();
+        QPainter onto_lines(&lines_);
+        onto_lines.setRenderHint(QPainter::Antialiasing);
+        paint_lines(onto_lines);
+    }
+    painter.drawImage(QPointF(0, 0), lines_);
+}
+
+void SurfaceScene::forget_lines() {
+    lines_ = {};
+    viewport_->refresh_overlay();
+}
+
 void SurfaceScene::paint_lines(QPainter& painter) const {
     const StudioSettings& settings = workbench_.settings();
     const SurfaceView& view = settings.surface_view;
     const SurfaceBody* surface = body();
-    // Smooth edges cost more than a moving view can spend.
-    painter.setRenderHint(QPainter::Antialiasing, !viewport_->frame().moving);
     const SceneLines lines(painter, *viewport_, surface);
     if (view.dome) paint_dome_lines(lines, *viewport_);
     if (!surface) return;

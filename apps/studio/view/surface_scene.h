@@ -45,6 +45,8 @@ class SurfaceScene : public QWidget {
     void hover(QPointF place);
 
     const SurfaceBody* body() const { return body_ ? body_->if_made() : nullptr; }
+    void paint_kept_lines(QPainter& painter);
+    void forget_lines();
     void paint_lines(QPainter& painter) const;
     void paint_labels(QPainter& painter) const;
 
@@ -55,6 +57,9 @@ class SurfaceScene : public QWidget {
     std::shared_ptr<const FacetSet> selected_facets_;
     Detector detector_;
     std::optional<QPointF> hovered_;
+    QImage lines_;  ///< of the still view seen by lines_camera_, over lines_body_; null: outdated
+    Camera lines_camera_;
+    const SurfaceBody* lines_body_ = nullptr;
     QTimer growing_;  ///< a layer grows: it is shown about ten times a second
 };
 

@@ -48,12 +48,12 @@ bool* switch_of(int key, CameraInput& input) {
     }
 }
 
-bool same(const Camera& a, const Camera& b) {
+}  // namespace
+
+bool same_camera(const Camera& a, const Camera& b) {
     return a.position == b.position && a.forward == b.forward && a.up == b.up &&
            a.fov_deg == b.fov_deg;
 }
-
-}  // namespace
 
 Viewport::Viewport(QWidget* parent) : QWidget(parent), controller_(home_), camera_(home_.camera()) {
     setFocusPolicy(Qt::StrongFocus);
@@ -153,7 +153,7 @@ bool Viewport::is_moving() const {
 /// Looks through the controller's camera; true when it is another than before.
 bool Viewport::show_camera(bool moving) {
     const Camera camera = std::visit([](const auto& c) { return c.camera(); }, controller_);
-    if (same(camera, camera_)) return false;
+    if (same_camera(camera, camera_)) return false;
     camera_ = camera;
     refresh(moving);
     emit camera_moved();

@@ -20,6 +20,8 @@
 
 namespace asperity::studio {
 
+bool same_camera(const Camera& a, const Camera& b);
+
 /// A window onto a scene: shows the pictures of a Painter, paints lines and labels over them, and
 /// steers a camera by mouse and keys (thesis table 2.1; R resets).
 class Viewport : public QWidget {
