@@ -43,9 +43,10 @@ SurfaceBody::SurfaceBody(const Heightfield& surface)
       frame_(SurfaceFrame::of(view_->patch(), view_->lowest(), view_->highest())) {
     double sum = 0, squares = 0;
     const auto count = static_cast<double>(surface.heights.size());
-    for (const float h : surface.heights) sum += double{h};
+    for (const float h : surface.heights) sum += static_cast<double>(h);
     mean_ = sum / count;
-    for (const float h : surface.heights) squares += (double{h} - mean_) * (double{h} - mean_);
+    for (const float h : surface.heights)
+        squares += (static_cast<double>(h) - mean_) * (static_cast<double>(h) - mean_);
     spread_ = std::sqrt(squares / count);
     const double steepness = rms_gradient(surface);
     if (steepness > 0) relief_ = std::clamp(steepness, kGentle, kSteep) / steepness;

@@ -54,9 +54,10 @@ Place place_of(double position, int cells) {
 }
 
 double height_at(const Heightfield& patch, const Ray& ray) {
-    const double h00 = double{patch.at(ray.i, ray.j)}, h10 = double{patch.at(ray.i + 1, ray.j)};
-    const double h01 = double{patch.at(ray.i, ray.j + 1)};
-    const double h11 = double{patch.at(ray.i + 1, ray.j + 1)};
+    const double h00 = static_cast<double>(patch.at(ray.i, ray.j)),
+                 h10 = static_cast<double>(patch.at(ray.i + 1, ray.j));
+    const double h01 = static_cast<double>(patch.at(ray.i, ray.j + 1));
+    const double h11 = static_cast<double>(patch.at(ray.i + 1, ray.j + 1));
     const double u = ray.u, v = ray.v;
     if (patch.diagonal == Diagonal::Anti)
         return u + v < 1 ? h00 + (h10 - h00) * u + (h01 - h00) * v
@@ -69,7 +70,7 @@ double height_at(const Heightfield& patch, const Ray& ray) {
 
 HeightfieldView::HeightfieldView(const Heightfield& surface, int threads)
     : patch_(cut_out(surface)),
-      lowest_(double{*std::min_element(patch_.heights.begin(), patch_.heights.end())}),
+      lowest_(static_cast<double>(*std::min_element(patch_.heights.begin(), patch_.heights.end()))),
       tracer_(patch_, threads) {}
 
 PatchHit HeightfieldView::enter(const WorldRay& ray, Ray& start) const {
