@@ -123,7 +123,7 @@ void MainWindow::make_docks() {
         add_dock(*this, tr("Log"), "log-dock", new LogView(workbench()), Qt::RightDockWidgetArea);
     parts_->docks = {menu, plots, log};
     const QFontMetrics letters = fontMetrics();
-    resizeDocks({menu, plots}, {46 * letters.averageCharWidth(), 58 * letters.averageCharWidth()},
+    resizeDocks({menu, plots}, {40 * letters.averageCharWidth(), 66 * letters.averageCharWidth()},
                 Qt::Horizontal);
     resizeDocks({plots, log}, {40 * letters.height(), 14 * letters.height()}, Qt::Vertical);
 }

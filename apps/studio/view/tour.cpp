@@ -82,18 +82,19 @@ constexpr std::array kSteps = {
              s.surface_view.current_layer = 12;
              s.plots.kind = PlotKind::Albedo;
          }},
-    Step{QT_TR_NOOP("Beside Cook-Torrance"),
-         QT_TR_NOOP("The formula that games and films use, drawn beside what was traced, for the "
-                    "same slope. Up to the mirror direction both agree. Beyond it the formula is "
-                    "too dark: its shadowing term (thesis eq. 3.6) takes too much of the light "
-                    "that leaves low. Tick Beckmann in the plot, made for Gaussian bumps."),
-         [](StudioSettings& s) {
-             set_common(s);
-             make_gaussian(s, 0.3);
-             s.surface_view.current_layer = 8;
-             s.plots.kind = PlotKind::LobeCartesian;
-             s.plots.cook_torrance.shown = true;
-         }},
+    Step{
+        QT_TR_NOOP("Beside Cook-Torrance"),
+        QT_TR_NOOP("The formula that games and films use, drawn beside what was traced, for the "
+                   "same slope. Near the normal both agree. Towards the horizon the formula is too "
+                   "dark: its shadowing term (thesis eq. 3.6) takes too much of the light that "
+                   "leaves low. Tick Beckmann in the plot, made for Gaussian bumps."),
+        [](StudioSettings& s) {
+            set_common(s);
+            make_gaussian(s, 0.3);
+            s.surface_view.current_layer = 8;
+            s.plots.kind = PlotKind::LobeCartesian;
+            s.plots.cook_torrance.shown = true;
+        }},
 };
 
 }  // namespace
