@@ -96,6 +96,7 @@ QWidget* MenuPanel::make_camera_row(View StudioSettings::*view) {
     auto* form = new QFormLayout(row);
     form->setContentsMargins(8, 2, 4, 2);
     form->addRow(tr("Camera Type"), types);
+    form->labelForField(types)->setMinimumWidth(label_width(fontMetrics()));
     return row;
 }
 

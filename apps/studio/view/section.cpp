@@ -6,6 +6,8 @@
 #include <QPainter>
 #include <QVBoxLayout>
 
+#include <algorithm>
+
 namespace asperity::studio {
 
 SectionBar::SectionBar(const QString& title, QWidget* parent) : QAbstractButton(parent) {
@@ -68,7 +70,7 @@ Section::Section(const QString& title, QWidget* parent)
 }
 
 void Section::showEvent(QShowEvent*) {
-    const int width = fontMetrics().horizontalAdvance("Correlation Length");
+    const int width = label_width(fontMetrics());
     for (int row = 0; row < form_->rowCount(); ++row) {
         const QLayoutItem* item = form_->itemAt(row, QFormLayout::LabelRole);
         if (item && item->widget()) item->widget()->setMinimumWidth(width);
@@ -77,6 +79,11 @@ void Section::showEvent(QShowEvent*) {
 
 void Section::set_open(bool open) {
     bar_->setChecked(open);
+}
+
+int label_width(const QFontMetrics& letters) {
+    return std::max(letters.horizontalAdvance("Surface Roughness"),
+                    letters.horizontalAdvance("Texture Resolution"));
 }
 
 QString kebab_case(const QString& label) {

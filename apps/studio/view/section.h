@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QAbstractButton>
+#include <QFontMetrics>
 #include <QFormLayout>
 #include <QWidget>
 
@@ -42,6 +43,9 @@ class Section : public QWidget {
     QWidget* body_;
     QFormLayout* form_;
 };
+
+/// What labels of rows get at least, so that fields of several forms stand below each other.
+int label_width(const QFontMetrics& letters);
 
 /// "Surface Roughness" -> "surface-roughness": the object name of a control from its label.
 QString kebab_case(const QString& label);
