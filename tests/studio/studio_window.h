@@ -81,6 +81,21 @@ class StudioWindow : public MainWindow {
     void set_small();      ///< settings that draw in a moment
 };
 
+// Colours of a picture
+inline bool is_green(const QColor& c) {
+    return c.green() > 200 && c.red() < 40 && c.blue() < 40;
+}
+inline bool is_black(const QColor& c) {
+    return c.red() < 8 && c.green() < 8 && c.blue() < 8;
+}
+/// The dome's colours run from dark red to orange and white.
+inline bool is_warm(const QColor& c) {
+    return c.red() > 60 && c.red() > c.green() + 20 && c.green() >= c.blue();
+}
+inline bool is_reddish(const QColor& c) {
+    return c.red() > 40 && c.red() > 2 * c.green() && c.red() > 2 * c.blue();
+}
+
 /// Share of the pixels for which `holds` says yes.
 template <typename Holds>
 double share_of(const QImage& image, Holds holds) {
