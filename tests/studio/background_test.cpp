@@ -10,6 +10,7 @@
 #include <QThread>
 
 #include <atomic>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -28,7 +29,7 @@ void work_until_stopped(Run& run) {
 /// Leaves a job behind that hears nothing for a while, as a studio that is closed while it reads a
 /// large file, and ends.
 int leave_a_deaf_job() {
-    static std::vector<int> memory(1000, 1);  // gone when the program ends
+    static std::vector<unsigned> memory(1000, 1);  // gone when the program ends
     QObject owner;
     Background background(&owner, {});
     std::atomic<bool> begun = false;
@@ -36,9 +37,9 @@ int leave_a_deaf_job() {
         begun = true;
         QElapsedTimer timer;
         timer.start();
-        int sum = 0;
+        std::uint64_t sum = 0;
         while (timer.elapsed() < 700)
-            for (const int one : memory) sum += one;
+            for (const unsigned one : memory) sum += one;
         std::fputs(sum > 0 ? "finished\n" : "", stdout);
         std::fflush(stdout);
         return {};

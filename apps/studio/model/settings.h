@@ -30,9 +30,9 @@ struct SurfaceView {
     SurfaceShading shading = SurfaceShading::Normals;
     bool dome = true;    ///< the sky-map of the current layer, around the surface
     bool beam = true;    ///< the incident beam as a wireframe (figures 2.10-2.12)
-    bool paths = false;  ///< sample paths of light
+    bool paths = false;  ///< sample paths of light; those into a selected cell are shown anyway
     int path_count = 200;
-    io::SkyMapSettings sky_map{io::ColourMap::ThesisRed};  ///< colours of the dome
+    io::SkyMapSettings sky_map{io::ColourMap::ThesisRed, io::Scale::Linear};  ///< of the dome
 };
 
 /// BRDF Type (thesis 2.3.1) and its fields.

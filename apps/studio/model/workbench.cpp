@@ -98,7 +98,7 @@ void Workbench::follow_settings(const StudioSettings& before) {
 
 void Workbench::look_for_paths() {
     const SurfaceView& view = settings().surface_view;
-    if (!view.paths || !surface_.surface()) {
+    if ((!view.paths && !cell_) || !surface_.surface()) {
         light_.forget();
         return;
     }

@@ -242,7 +242,7 @@ void SurfaceScene::paint_lines(QPainter& painter) const {
     const SceneLines lines(painter, *viewport_, surface);
     if (view.dome) paint_dome_lines(lines, *viewport_);
     if (!surface) return;
-    if (view.paths) paint_paths(lines, workbench_.light().paths(), *surface);
+    paint_paths(lines, workbench_.light().paths(), *surface);
     if (const auto incidence = incidence_of(settings.experiment.illumination, view.current_layer);
         view.beam && incidence)
         paint_beam(lines, Beam(from_spherical(incidence->theta, incidence->phi), *surface),
@@ -263,7 +263,7 @@ void SurfaceScene::paint_labels(QPainter& painter) const {
         text += tr(" · drawn with other settings");
     paint_label(painter, area, Qt::AlignTop | Qt::AlignLeft, text);
     paint_axis_cross(painter, area.bottomLeft() + QPointF(3, -3) * em, viewport_->shown_camera());
-    if (view.paths && !workbench_.light().paths().empty())
+    if (!workbench_.light().paths().empty())
         paint_bounce_legend(painter, area.bottomLeft() + QPointF(6.5, -0.6) * em,
                             most_bounces(workbench_.light().paths()));
     const DomePicture* dome = dome_ ? dome_->if_made() : nullptr;
