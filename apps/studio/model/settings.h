@@ -63,7 +63,7 @@ struct ModelView {
     std::string result;
     LightKind light = LightKind::Point;
     Vec3 light_position{1, 1, 1};
-    double light_intensity = 300;
+    double light_intensity = 40;  ///< the thesis' 300 blinds a model of radius 1
     double sun_elevation_deg = 45, sun_azimuth_deg = 130;
     std::string environment;  ///< a latitude-longitude .exr or .hdr
     double environment_rotation_deg = 0;
