@@ -189,7 +189,6 @@ void ScreenshotsTest::figures_2_17_to_2_19() {
     show_model();
     edit([](StudioSettings& s) {
         s.model_view.brdf_runs = true;
-        s.model_view.light_intensity = 40;
         s.model_view.brdf.metallic = 0;
     });
     const auto look = [this](const char* name, const std::function<void(BrdfSettings&)>& change) {
@@ -227,7 +226,6 @@ void ScreenshotsTest::figures_2_20_and_2_21() {
     show_model();
     edit([](StudioSettings& s) {
         s.model_view.brdf_runs = true;
-        s.model_view.light_intensity = 40;
         s.model_view.brdf.type = BrdfType::Simulated;
         s.model_view.brdf.roughness = 0.447;
     });

@@ -44,7 +44,8 @@ QWidget* LightFields::point_fields() {
     add_row(
         *rows, tr("Light Intensity"),
         number("light-intensity", tr("Light Intensity"), 0, 1000, 1, &ModelView::light_intensity),
-        tr("Radiant intensity I [W/sr]: the irradiance is I / distance²; the thesis' is 300"));
+        tr("Radiant intensity I [W/sr]: the irradiance is I / distance²; the thesis' is 300, in a "
+           "scene of another scale"));
     return fields;
 }
 
