@@ -3,6 +3,7 @@
 
 #include "theme.h"
 
+#include <QLabel>
 #include <QPainter>
 #include <QVBoxLayout>
 
@@ -75,6 +76,16 @@ void Section::showEvent(QShowEvent*) {
         const QLayoutItem* item = form_->itemAt(row, QFormLayout::LabelRole);
         if (item && item->widget()) item->widget()->setMinimumWidth(width);
     }
+}
+
+void Section::add_named_row(const QString& label, QWidget* control, const QString& tooltip) {
+    if (control->objectName().isEmpty() && control->focusProxy() == nullptr)
+        control->setObjectName(kebab_case(label));
+    control->setToolTip(tooltip);
+    auto* name = new QLabel(label);
+    name->setToolTip(tooltip);
+    name->setBuddy(control);
+    form_->addRow(name, control);
 }
 
 void Section::set_open(bool open) {

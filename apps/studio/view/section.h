@@ -32,6 +32,9 @@ class Section : public QWidget {
 
     /// Rows of label and control; what is not such a row goes in by form().addRow(widget).
     QFormLayout& form() { return *form_; }
+    /// Such a row; label and control get the tooltip, and a control without an object name that of
+    /// the label.
+    void add_named_row(const QString& label, QWidget* control, const QString& tooltip);
     void set_open(bool open);
     bool is_open() const { return bar_->isChecked(); }
 

@@ -4,7 +4,6 @@
 #include <asperity/gonio/experiment.h>
 #include <asperity/optics/materials.h>
 
-#include <QLabel>
 #include <QSignalBlocker>
 
 #include <cmath>
@@ -98,21 +97,11 @@ SimulationFields::SimulationFields(Workbench& workbench, QWidget* parent)
     add_facets();
 }
 
-void SimulationFields::add_row(const QString& label, QWidget* control, const QString& tooltip) {
-    if (control->objectName().isEmpty() && control->focusProxy() == nullptr)
-        control->setObjectName(kebab_case(label));
-    control->setToolTip(tooltip);
-    auto* name = new QLabel(label);
-    name->setToolTip(tooltip);
-    name->setBuddy(control);
-    form().addRow(name, control);
-}
-
 void SimulationFields::add_rays() {
     auto* jitter = new NumberBox(1, 4096, 2, 1);
-    add_row(tr("Camera Jitter"), jitter,
-            tr("How often the light camera is shifted by less than a cell: rays per cell and "
-               "layer. Twice as many, errors smaller by sqrt(2)"));
+    add_named_row(tr("Camera Jitter"), jitter,
+                  tr("How often the light camera is shifted by less than a cell: rays per cell and "
+                     "layer. Twice as many, errors smaller by sqrt(2)"));
     lock_.add(jitter);
     bindings_.bind(
         jitter, tr("Camera Jitter"),
@@ -124,9 +113,10 @@ void SimulationFields::add_rays() {
 
     auto* bounces = new QSpinBox;
     bounces->setRange(1, 10000);
-    add_row(tr("Ray Bounces"), bounces,
-            tr("How often a ray may be reflected; the energy of one that is still travelling then "
-               "is counted as truncated"));
+    add_named_row(
+        tr("Ray Bounces"), bounces,
+        tr("How often a ray may be reflected; the energy of one that is still travelling then "
+           "is counted as truncated"));
     lock_.add(bounces);
     bindings_.bind(
         bounces, tr("Ray Bounces"),
@@ -136,9 +126,10 @@ void SimulationFields::add_rays() {
 
 void SimulationFields::add_layer() {
     auto* layer = new SliderField("current-layer", 1, 15, 0, 1);
-    add_row(tr("Current Layer"), layer,
-            tr("The sky-map that dome, beam, paths and plots show. Layer k of 15 is lit from an "
-               "elevation of 6k degrees: 15 from straight above, 1 grazing"));
+    add_named_row(
+        tr("Current Layer"), layer,
+        tr("The sky-map that dome, beam, paths and plots show. Layer k of 15 is lit from an "
+           "elevation of 6k degrees: 15 from straight above, 1 grazing"));
     bindings_.follow([layer](const StudioSettings& settings) {
         layer->set_range(1, layer_count(settings.experiment.illumination));
     });
@@ -155,9 +146,10 @@ void SimulationFields::add_facets() {
     facets->addItems({tr("Perfect mirrors"), tr("Schlick, F0"), tr("Dielectric, index")});
     for (const Metal& metal : kMetals)
         facets->addItem(QString("%1 (%2)").arg(metal.name, metal.symbol));
-    add_row(tr("Facets"), facets,
-            tr("How much a facet reflects: all (the thesis), Schlick's approximation (thesis eq. "
-               "3.3), or Fresnel's equations with the index of glass or of a metal"));
+    add_named_row(
+        tr("Facets"), facets,
+        tr("How much a facet reflects: all (the thesis), Schlick's approximation (thesis eq. "
+           "3.3), or Fresnel's equations with the index of glass or of a metal"));
     lock_.add(facets);
     bindings_.bind(
         facets, tr("Facets"),
@@ -168,7 +160,7 @@ void SimulationFields::add_facets() {
         return list.empty() ? otherwise : list.front();
     };
     auto* f0 = new SliderField("f0", 0, 1, 3, 0.01);
-    add_row(tr("F0"), f0, tr("Reflectance along the normal, 0 .. 1 (thesis eq. 3.3)"));
+    add_named_row(tr("F0"), f0, tr("Reflectance along the normal, 0 .. 1 (thesis eq. 3.3)"));
     lock_.add(f0);
     bindings_.bind(
         f0, tr("F0"),
@@ -177,7 +169,7 @@ void SimulationFields::add_facets() {
 
     auto* index = new NumberBox(0.01, 100, 3, 0.1);
     index->setObjectName("ior");
-    add_row(tr("Refractive Index"), index, tr("Inside against outside; glass has about 1.5"));
+    add_named_row(tr("Refractive Index"), index, tr("Inside against outside; glass has about 1.5"));
     lock_.add(index);
     bindings_.bind(
         index, tr("Refractive Index"),
@@ -203,7 +195,7 @@ void SimulationFields::add_facets() {
 
     auto* seed = new QSpinBox;
     seed->setRange(0, std::numeric_limits<int>::max());
-    add_row(tr("Seed"), seed, tr("Of the rays. Same settings and seed, same bits"));
+    add_named_row(tr("Seed"), seed, tr("Of the rays. Same settings and seed, same bits"));
     lock_.add(seed);
     bindings_.bind(
         seed, tr("Seed"),

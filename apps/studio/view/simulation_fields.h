@@ -26,7 +26,6 @@ class SimulationFields : public Section {
     explicit SimulationFields(Workbench& workbench, QWidget* parent = nullptr);
 
   private:
-    void add_row(const QString& label, QWidget* control, const QString& tooltip);
     void add_rays();
     void add_layer();
     void add_facets();

@@ -89,13 +89,7 @@ SurfaceFields::SurfaceFields(Workbench& workbench, QWidget* parent)
 
 void SurfaceFields::add_row(const QString& label, QWidget* control, const QString& tooltip,
                             Shown shown) {
-    if (control->objectName().isEmpty() && control->focusProxy() == nullptr)
-        control->setObjectName(kebab_case(label));
-    control->setToolTip(tooltip);
-    auto* name = new QLabel(label);
-    name->setToolTip(tooltip);
-    name->setBuddy(control);
-    form().addRow(name, control);
+    add_named_row(label, control, tooltip);
     lock_.add(control);
     rows_.push_back({control, shown});
 }

@@ -111,12 +111,16 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"thesis", SurfaceKind::Thesis, Diagonal::Anti, nullptr, 60, 310}),
     [](const testing::TestParamInfo<Case>& tested) { return std::string(tested.param.name); });
 
-TEST(KnownFacets, OfAMirrorAreAllKnown) {
+Heightfield make_mirror(asperity::Run& run) {
     SurfaceSettings settings;
     settings.kind = SurfaceKind::Flat;
     settings.size = 64;
+    return make_surface(settings, run);
+}
+
+TEST(KnownFacets, OfAMirrorAreAllKnown) {
     asperity::Run run(1);
-    const Heightfield surface = make_surface(settings, run);
+    const Heightfield surface = make_mirror(run);
     const WideTracer tracer(surface, run);
     const Fresnel fresnel{OpticsSettings{}};
     const Detector detector(DetectorSettings{DetectorKind::LatLong, 64});
@@ -127,11 +131,8 @@ TEST(KnownFacets, OfAMirrorAreAllKnown) {
 }
 
 TEST(KnownFacets, AreLookedForOnlyWhereThatPays) {
-    SurfaceSettings settings;
-    settings.kind = SurfaceKind::Flat;
-    settings.size = 64;
     asperity::Run run(1);
-    const Heightfield surface = make_surface(settings, run);
+    const Heightfield surface = make_mirror(run);
     const WideTracer tracer(surface, run);
     EXPECT_FALSE(KnownFacets::pay(tracer, 64 * 64));
     EXPECT_TRUE(KnownFacets::pay(tracer, 4 * 64 * 64));
