@@ -100,17 +100,23 @@ void ModelLookTest::albedo_colours_each_channel_apart() {
     QCOMPARE(red.g, red.b);
 }
 
-void ModelLookTest::normalize_factor_doubles_the_picture_exactly() {
-    QTemporaryDir folder;
+/// A sphere that wears a small measurement, once it is ready.
+void wear_simulated(Bench& bench, double normalize_factor) {
+    const QTemporaryDir folder;
     const std::string file = folder.filePath("small.asperity").toStdString();
     io::save_measurement(small_measurement(), file);
-    Bench bench;
     bench.begin();
     bench.change([&](ModelView& view) {
         view.brdf.type = BrdfType::Simulated;
+        view.brdf.normalize_factor = normalize_factor;
         view.result = file;
     });
     QTRY_VERIFY_WITH_TIMEOUT(bench.scene.stage().message().isEmpty(), 30000);
+}
+
+void ModelLookTest::normalize_factor_doubles_the_picture_exactly() {
+    Bench bench;
+    wear_simulated(bench, 1);
     const Film once = paint(bench.scene);
     const Brdf* baked = &bench.scene.stage().sight()->scene.material.brdf();
     QVERIFY(luminance(middle(once)) > 0);
@@ -127,17 +133,8 @@ void ModelLookTest::normalize_factor_doubles_the_picture_exactly() {
 }
 
 void ModelLookTest::diffuse_albedo_adds_its_colour() {
-    QTemporaryDir folder;
-    const std::string file = folder.filePath("small.asperity").toStdString();
-    io::save_measurement(small_measurement(), file);
     Bench bench;
-    bench.begin();
-    bench.change([&](ModelView& view) {
-        view.brdf.type = BrdfType::Simulated;
-        view.brdf.normalize_factor = 0;
-        view.result = file;
-    });
-    QTRY_VERIFY_WITH_TIMEOUT(bench.scene.stage().message().isEmpty(), 30000);
+    wear_simulated(bench, 0);
     QVERIFY(is_black(middle(paint(bench.scene))));
     bench.set("diffuse-b", 0.5);
     const Rgb blue = middle(paint(bench.scene));

@@ -171,8 +171,7 @@ void MainWindow::view(SceneKind scene) {
 }
 
 void MainWindow::load_model(const QString& name_or_file) {
-    model_scene().load(name_or_file);
-    view(SceneKind::Model);
+    model_scene().load(name_or_file);  // goes over to its scene when it is ready
 }
 
 void MainWindow::run_test() {

@@ -191,6 +191,23 @@ QPen pen_of(const PlotStyle& style, PlotInk ink, CurveLook look) {
     return pen;
 }
 
+void paint_band(QPainter& painter, const PlotStyle& style, const PlotCurve& curve, float opacity,
+                const std::function<QPointF(double, double)>& place) {
+    QPolygonF band;
+    const auto add = [&](std::size_t k, double sign) {
+        const double error = std::isfinite(curve.error[k]) ? curve.error[k] : 0.0;
+        band << place(curve.x[k], curve.y[k] + sign * error);
+    };
+    for (std::size_t k = 0; k < curve.x.size(); ++k) add(k, 1);
+    for (std::size_t k = curve.x.size(); k-- > 0;) add(k, -1);
+    QColor colour = style.ink(curve.ink);
+    colour.setAlphaF(opacity);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(colour);
+    painter.drawPolygon(band);
+    painter.setBrush(Qt::NoBrush);
+}
+
 void paint_dot(QPainter& painter, const PlotStyle& style, QPointF place, PlotInk ink) {
     const double radius = 0.22 * style.line_height();
     painter.setPen(QPen(style.paper, 0.35 * radius));

@@ -5,6 +5,7 @@
 
 #include <QPolygonF>
 
+#include <functional>
 #include <vector>
 
 namespace asperity::studio {
@@ -64,6 +65,9 @@ QRectF below_heading(const QRectF& area, const PlotStyle& style, const QString& 
 
 /// The pen a curve is drawn with.
 QPen pen_of(const PlotStyle& style, PlotInk ink, CurveLook look);
+/// The band of a curve's errors, whose points lie at place(x, y +- error).
+void paint_band(QPainter& painter, const PlotStyle& style, const PlotCurve& curve, float opacity,
+                const std::function<QPointF(double, double)>& place);
 /// A dot with a rim of paper, so that it stands out of lines.
 void paint_dot(QPainter& painter, const PlotStyle& style, QPointF place, PlotInk ink);
 

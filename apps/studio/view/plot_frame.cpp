@@ -118,20 +118,10 @@ void PlotFrame::paint_line(QPainter& painter, const PlotCurve& curve) const {
 }
 
 void PlotFrame::paint_band(QPainter& painter, const PlotCurve& curve) const {
-    QPolygonF band;
-    const auto add = [&](std::size_t k, double sign) {
-        const double error = std::isfinite(curve.error[k]) ? curve.error[k] : 0.0;
-        const QPointF place = map(curve.x[k], curve.y[k] + sign * error);
-        band << QPointF(place.x(), clamped(place.y()));
-    };
-    for (std::size_t k = 0; k < curve.x.size(); ++k) add(k, 1);
-    for (std::size_t k = curve.x.size(); k-- > 0;) add(k, -1);
-    QColor colour = style_.ink(curve.ink);
-    colour.setAlphaF(0.22F);
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(colour);
-    painter.drawPolygon(band);
-    painter.setBrush(Qt::NoBrush);
+    asperity::studio::paint_band(painter, style_, curve, 0.22F, [this](double x, double y) {
+        const QPointF place = map(x, y);
+        return QPointF(place.x(), clamped(place.y()));
+    });
 }
 
 void PlotFrame::paint_marks(QPainter& painter, const PlotCurve& curve, bool errors) const {

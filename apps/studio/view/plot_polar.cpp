@@ -94,19 +94,8 @@ void PolarFrame::paint_line(QPainter& painter, const PlotCurve& curve) const {
 }
 
 void PolarFrame::paint_band(QPainter& painter, const PlotCurve& curve) const {
-    QPolygonF band;
-    const auto add = [&](std::size_t k, double sign) {
-        const double error = std::isfinite(curve.error[k]) ? curve.error[k] : 0.0;
-        band << map(curve.x[k], curve.y[k] + sign * error);
-    };
-    for (std::size_t k = 0; k < curve.x.size(); ++k) add(k, 1);
-    for (std::size_t k = curve.x.size(); k-- > 0;) add(k, -1);
-    QColor colour = style_.ink(curve.ink);
-    colour.setAlphaF(0.25F);
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(colour);
-    painter.drawPolygon(band);
-    painter.setBrush(Qt::NoBrush);
+    asperity::studio::paint_band(painter, style_, curve, 0.25F,
+                                 [this](double x, double y) { return map(x, y); });
 }
 
 void PolarFrame::paint_light(QPainter& painter, double theta_deg) const {

@@ -49,7 +49,7 @@ KnownFacets::KnownFacets(const Scene& scene, const Incidence& incidence, const R
     const int rows = 2 * scene.tracer.cells_y();  // of lower facets, then of upper ones
     const auto tasks = static_cast<std::size_t>((rows + kRows - 1) / kRows);
     parallel_for(tasks, run.threads(), [&](std::size_t k) {
-        if (run.stop_requested()) return;
+        if (!run.keep_going()) return;
         const auto work = std::make_unique<Work>();
         work->reflectance.resize(channels);
         const int begin = static_cast<int>(k) * kRows, end = std::min(begin + kRows, rows);

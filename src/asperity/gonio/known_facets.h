@@ -17,7 +17,8 @@ class KnownFacets {
     /// Knows nothing.
     KnownFacets() = default;
     /// Looks at all facets, on run.threads() threads, until it is stopped: what was not looked at
-    /// is not known. Cost: about as much as two rays a cell.
+    /// is not known. Cost: about as much as two rays a cell; 8 bytes a cell, and 8 more for each
+    /// channel unless the facets are perfect mirrors.
     KnownFacets(const Scene& scene, const Incidence& incidence, const Run& run);
 
     /// Whether `rays` of a layer are worth the look: some a cell, on a tile that fits the memory.

@@ -35,18 +35,20 @@ inline Measurement measured(const Heightfield& s, const Experiment& e, int threa
     return measure(s, e, run);
 }
 
+inline void expect_same_bits(const Layer& a, const Layer& b) {
+    EXPECT_EQ(a.energy, b.energy);
+    EXPECT_EQ(a.absorbed, b.absorbed);
+    EXPECT_EQ(a.truncated, b.truncated);
+    EXPECT_EQ(a.escaped_by_bounce, b.escaped_by_bounce);
+    EXPECT_EQ(a.stderr_energy, b.stderr_energy);
+    EXPECT_EQ(a.stderr_albedo, b.stderr_albedo);
+    EXPECT_EQ(a.segments, b.segments);
+    EXPECT_EQ(a.reflections, b.reflections);
+}
+
 inline void expect_same_bits(const Measurement& a, const Measurement& b) {
     ASSERT_EQ(a.layers.size(), b.layers.size());
-    for (std::size_t k = 0; k < a.layers.size(); ++k) {
-        const Layer &x = a.layers[k], &y = b.layers[k];
-        EXPECT_EQ(x.energy, y.energy);
-        EXPECT_EQ(x.absorbed, y.absorbed);
-        EXPECT_EQ(x.truncated, y.truncated);
-        EXPECT_EQ(x.escaped_by_bounce, y.escaped_by_bounce);
-        EXPECT_EQ(x.stderr_energy, y.stderr_energy);
-        EXPECT_EQ(x.stderr_albedo, y.stderr_albedo);
-        EXPECT_EQ(x.segments, y.segments);
-    }
+    for (std::size_t k = 0; k < a.layers.size(); ++k) expect_same_bits(a.layers[k], b.layers[k]);
 }
 
 inline OpticsSettings gold_like() {
