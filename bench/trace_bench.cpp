@@ -12,6 +12,7 @@
 #include <asperity/surface/make_surface.h>
 
 #include <fmt/format.h>
+#include <hwy/targets.h>
 #include <pmmintrin.h>
 #include <CLI/CLI.hpp>
 
@@ -37,6 +38,7 @@ struct Options {
     int repetitions = 5;
     int bounces = 16;
     EmbreeModes modes = EmbreeModes::Usual;
+    std::int64_t vectors = 0;  ///< of Highway's targets; 0: the widest
     bool check = false, quiet = false;
     std::string json_file;
 };
@@ -146,6 +148,10 @@ void add_options(CLI::App& app, Options& options) {
                                                       {"all", EmbreeModes::All}};
     app.add_option("--modes", options.modes, "of Embree: none, grid (little memory), usual, all")
         ->transform(CLI::CheckedTransformer(modes));
+    const std::map<std::string, std::int64_t> vectors = {
+        {"avx512", HWY_AVX3}, {"avx2", HWY_AVX2}, {"sse4", HWY_SSE4}};
+    app.add_option("--vectors", options.vectors, "of ours: at most avx512, avx2 or sse4")
+        ->transform(CLI::CheckedTransformer(vectors));
     app.add_flag("--check", options.check,
                  "leave the product out: only the rivals that follow the same points");
     app.add_option("--json", options.json_file, "file to add all figures to");
@@ -161,6 +167,9 @@ int main_of(int argc, char** argv) {
     // As Embree's manual asks; the same for us.
     _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
     _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+
+    // Wider sets have lower bits in Highway's list
+    if (options.vectors != 0) hwy::DisableTargets(options.vectors - 1);
 
     const std::vector<Row> rows = race_all(options);
     fmt::print("{}", table(rows));

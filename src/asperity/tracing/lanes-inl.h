@@ -195,14 +195,14 @@ class Packer {
             hn::StoreU(hn::TableLookupLanes(x, hn::IndicesFromVec(kFloat, order_)), kFloat,
                        to.values + at);
         else
-            hn::CompressStore(x, chosen_, kFloat, to.values + at);
+            hn::StoreU(hn::Compress(x, chosen_), kFloat, to.values + at);
     }
     HWY_INLINE void operator()(Ints x, PerPath<std::int32_t>& to, std::size_t at) const {
         if constexpr (kLanes <= 8)
             hn::StoreU(hn::TableLookupLanes(x, hn::IndicesFromVec(kInt, order_)), kInt,
                        to.values + at);
         else
-            hn::CompressStore(x, hn::RebindMask(kInt, chosen_), kInt, to.values + at);
+            hn::StoreU(hn::Compress(x, hn::RebindMask(kInt, chosen_)), kInt, to.values + at);
     }
     const std::size_t count;
 
