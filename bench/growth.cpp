@@ -26,7 +26,7 @@ struct Options {
 };
 
 /// Paths when none are asked for: one a cell within these limits.
-constexpr std::uint64_t kLeastPaths = 1 << 20, kMostPaths = 1 << 24;
+constexpr std::uint64_t kLeastPaths = 1 << 18, kMostPaths = 1 << 28;
 
 /// Forgets the largest size this process has had.
 void forget_peak_memory() {
@@ -133,7 +133,7 @@ Task add_growth(CLI::App& program) {
         ->delimiter(',')
         ->capture_default_str();
     add_theta(*app, options->theta_deg);
-    app->add_option("--paths", options->paths, "default: one a cell, at least 2^20, at most 2^24");
+    app->add_option("--paths", options->paths, "default: one a cell, at least 2^18, at most 2^28");
     add_repetitions(*app, options->repetitions);
     return {app, [options] { return bench::run(*options); }};
 }

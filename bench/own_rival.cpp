@@ -51,7 +51,7 @@ class OwnRival : public Rival {
         if (KnownFacets::pay(tracer_, rays)) known = KnownFacets(scene, light, Run(1));
         scene.known = &known;
         LayerSums layer_sums(detector_.cells(), 1, orders, workload.bounces,
-                             (rays + batches - 1) / batches);
+                             (rays + batches - 1) / batches, &known.light());
         Follower follower;
         BatchSums sums(detector_.cells(), 1, orders, workload.bounces);
         for (std::uint64_t b = 0; b < batches; ++b) {
@@ -59,9 +59,11 @@ class OwnRival : public Rival {
             const LaunchBatch batch(surface_, static_cast<double>(tracer_.max_height()), light,
                                     LaunchPattern::LowDiscrepancy, size, workload.seed, 0,
                                     static_cast<std::uint32_t>(b));
-            for (std::uint64_t first = 0; first < size; first += Follower::kMost) {
-                follower.follow(scene, batch, first, std::min(first + Follower::kMost, size), sums);
+            for (std::uint64_t first = 0, last = 0; first < size; first = last) {
+                last = Follower::end_of_portion(batch, first);
+                follower.follow(scene, batch, first, last, sums);
             }
+            follower.finish(scene, sums);
             layer_sums.add(sums);
             sums.clear();
         }
@@ -71,13 +73,16 @@ class OwnRival : public Rival {
     }
 
   private:
+    static double rays_of(std::uint64_t energy) {
+        return static_cast<double>(energy) / static_cast<double>(kRayEnergy);
+    }
     Tally tally_of(const Layer& layer) const {
         Tally tally;
         const auto cells = static_cast<std::size_t>(detector_.cells());
         for (std::size_t k = 0; k < layer.energy.size(); ++k) {
-            tally.add_escapes(static_cast<int>(k % cells), layer.energy[k] / kRayEnergy);
+            tally.add_escapes(static_cast<int>(k % cells), rays_of(layer.energy[k]));
         }
-        tally.add_truncated(layer.truncated[0] / kRayEnergy - layer.stuck, 0);
+        tally.add_truncated(rays_of(layer.truncated[0]) - static_cast<double>(layer.stuck), 0);
         tally.add_lost(layer.stuck);
         tally.add_reflections(layer.reflections);
         tally.add_segments(layer.segments);

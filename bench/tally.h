@@ -52,12 +52,13 @@ class Tally {
         add_escapes(cells.cell_of(x, y), 1);
         add_reflections(static_cast<std::uint64_t>(bounces));
     }
-    void add_escapes(int cell, std::uint64_t count) {
-        histogram_[static_cast<std::size_t>(cell)] += static_cast<std::uint32_t>(count);
+    /// Rays may be spread over cells.
+    void add_escapes(int cell, double count) {
+        histogram_[static_cast<std::size_t>(cell)] += count;
         escaped_ += count;
     }
     /// `count` paths of `bounces` reflections in all would have needed one more.
-    void add_truncated(std::uint64_t count, std::uint64_t bounces) {
+    void add_truncated(double count, std::uint64_t bounces) {
         truncated_ += count;
         reflections_ += bounces;
     }
@@ -67,19 +68,18 @@ class Tally {
     void add_reflections(std::uint64_t count) { reflections_ += count; }
 
     std::uint64_t segments() const { return segments_; }
-    std::uint64_t escaped() const { return escaped_; }
-    std::uint64_t truncated() const { return truncated_; }
+    double escaped() const { return escaped_; }
+    double truncated() const { return truncated_; }
     std::uint64_t lost() const { return lost_; }
     std::uint64_t reflections() const { return reflections_; }
-    std::uint64_t paths() const { return escaped_ + truncated_ + lost_; }
+    double paths() const { return escaped_ + truncated_ + static_cast<double>(lost_); }
     /// Share of all paths that left into a cell.
-    double share(std::size_t cell) const {
-        return static_cast<double>(histogram_[cell]) / static_cast<double>(paths());
-    }
+    double share(std::size_t cell) const { return histogram_[cell] / paths(); }
 
   private:
-    std::vector<std::uint32_t> histogram_;
-    std::uint64_t segments_ = 0, escaped_ = 0, truncated_ = 0, lost_ = 0, reflections_ = 0;
+    std::vector<double> histogram_;
+    double escaped_ = 0, truncated_ = 0;
+    std::uint64_t segments_ = 0, lost_ = 0, reflections_ = 0;
 };
 
 /// How far two runs that followed the same launch points are apart, half the L1 distance of their

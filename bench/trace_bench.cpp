@@ -27,7 +27,7 @@ namespace {
 /// Rows of docs/performance.md: all surfaces at this size, the smooth ones at larger sizes too.
 constexpr int kSizeOfAll = 512;
 /// Paths per row that launch by themselves: per cell, as in the demo, and at most.
-constexpr std::uint64_t kOwnPerCell = 8, kOwnPaths = 1 << 24;
+constexpr std::uint64_t kOwnPerCell = 8, kOwnPaths = 1 << 26;
 
 struct Options {
     std::vector<std::string> surfaces;
@@ -137,7 +137,7 @@ void add_options(CLI::App& app, Options& options) {
         ->capture_default_str();
     app.add_option(
         "--own-paths", options.own_paths,
-        "our paths per row; default: 8 a cell as in the demo, at least --paths, at most 2^24");
+        "our paths per row; default: 8 a cell as in the demo, at least --paths, at most 2^26");
     add_repetitions(app, options.repetitions);
     app.add_option("--bounces", options.bounces, "reflections a path may make")
         ->check(CLI::Range(1, 1000))

@@ -17,11 +17,34 @@ std::size_t index(int a) {
     return static_cast<std::size_t>(a);
 }
 
+/// Numbers of counted rays are summed in units of 2^-kCountShift, as batches are scaled.
+constexpr int kCountShift = 16;
+
 void add_to(std::vector<std::uint64_t>& sum, const std::vector<std::uint64_t>& more) {
     for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += more[k];
 }
 
 }  // namespace
+
+CountedLight::CountedLight(const std::vector<std::uint64_t>& sums, std::size_t channels,
+                           std::uint64_t total)
+    : reflected_(channels) {
+    __extension__ using Wide = unsigned __int128;
+    // The sums so far are rounded, not each by itself, so that nothing is lost
+    std::vector<std::uint64_t> so_far(channels);
+    for (std::size_t cell = 0; cell < sums.size() / channels; ++cell) {
+        const std::uint64_t* sum = &sums[cell * channels];
+        if (std::all_of(sum, sum + channels, [](std::uint64_t x) { return x == 0; })) continue;
+        cells_.push_back(static_cast<std::uint32_t>(cell));
+        for (std::size_t c = 0; c < channels; ++c) {
+            so_far[c] += sum[c];
+            const auto rounded =
+                static_cast<std::uint64_t>((Wide{so_far[c]} * kRayEnergy + total / 2) / total);
+            energy_.push_back(rounded - reflected_[c]);
+            reflected_[c] = rounded;
+        }
+    }
+}
 
 BatchSums::BatchSums(int cells, int channels, int orders, int bounces)
     : cells_(index(cells)),
@@ -65,6 +88,15 @@ void BatchSums::escape(const PerPath<std::int32_t>& cells, const PerPath<std::in
     }
 }
 
+void BatchSums::escape_counted(std::uint64_t count, const CountedLight& light) {
+    if (count == 0) return;
+    counted_ += count;
+    for (std::size_t c = 0; c < channels_; ++c) {
+        escaped_by_bounce_[c * bounces_] += count * light.reflected(c);
+        absorbed_[c] += count * (kRayEnergy - light.reflected(c));
+    }
+}
+
 void BatchSums::touch(std::size_t cell) {
     if (is_touched_[cell]) return;
     is_touched_[cell] = 1;
@@ -94,10 +126,11 @@ void BatchSums::clear() {
     touched_.clear();
     for (auto* account : {&escaped_by_bounce_, &absorbed_, &truncated_, &edge_})
         std::fill(account->begin(), account->end(), std::uint64_t{0});
-    rays = segments = reflections = stuck = 0;
+    rays = segments = reflections = stuck = counted_ = 0;
 }
 
-LayerSums::LayerSums(int cells, int channels, int orders, int bounces, std::uint64_t largest_batch)
+LayerSums::LayerSums(int cells, int channels, int orders, int bounces, std::uint64_t largest_batch,
+                     const CountedLight* light)
     : cells_(index(cells)),
       channels_(index(channels)),
       orders_(index(orders)),
@@ -110,7 +143,8 @@ LayerSums::LayerSums(int cells, int channels, int orders, int bounces, std::uint
       edge_(channels_),
       cell_spread_(channels_ * cells_),
       bounce_spread_(channels_ * bounces_),
-      albedo_spread_(channels_) {}
+      albedo_spread_(channels_),
+      light_(light) {}
 
 std::uint64_t LayerSums::scaled(std::uint64_t energy, std::uint64_t rays) const {
     if (rays == largest_batch_) return energy;
@@ -127,6 +161,9 @@ void LayerSums::add(const BatchSums& b) {
     add_to(truncated_, b.truncated_);
     add_to(edge_, b.edge_);
     add_to(escaped_by_bounce_, b.escaped_by_bounce_);
+    counted_ += b.counted_;
+    const std::uint64_t counted = scaled(b.counted_ << kCountShift, b.rays);
+    counted_spread_.add(counted);
 
     for (std::size_t k = 0; k < bounce_spread_.size(); ++k)
         bounce_spread_[k].add(scaled(b.escaped_by_bounce_[k], b.rays));
@@ -138,7 +175,7 @@ void LayerSums::add(const BatchSums& b) {
     for (const std::uint32_t cell : b.touched_) {
         const std::uint64_t* sums = &b.energy_[cell * orders_ * channels_];
         std::uint64_t* mine = &energy_[cell * orders_ * channels_];
-        Spread* spread = &cell_spread_[cell * channels_];
+        CellSpread* spread = &cell_spread_[cell * channels_];
         for (std::size_t c = 0; c < channels_; ++c) {
             std::uint64_t total = 0;
             for (std::size_t order = 0; order < orders_; ++order) {
@@ -146,43 +183,73 @@ void LayerSums::add(const BatchSums& b) {
                 mine[order * channels_ + c] += energy;
                 total += energy;
             }
-            if (total > 0) spread[c].add(scaled(total, b.rays));
+            if (total == 0) continue;
+            const std::uint64_t energy = scaled(total, b.rays);
+            spread[c].add(energy);
+            spread[c].by_counted += Wide{energy} * counted;
         }
     }
 }
 
-double LayerSums::relative_error(const Spread& s) const {
-    // Standard error of the mean over its mean: sqrt((K sum e^2 - (sum e)^2) / (K - 1)) / sum e.
-    if (s.sum == 0) return 0;
-    if (batches_ < 2) return std::numeric_limits<double>::infinity();
-    const auto k = static_cast<long double>(batches_);
-    const auto sum = static_cast<long double>(s.sum);
-    const long double excess = k * static_cast<long double>(s.squares) - sum * sum;
-    return static_cast<double>(std::sqrt(std::max(0.0L, excess) / (k - 1)) / sum);
+LayerSums::Estimate LayerSums::estimate(long double sum, long double excess) const {
+    // Standard error of the mean over batches: sqrt((K sum e^2 - (sum e)^2) / (K - 1)) / K
+    const long double launched =
+        static_cast<long double>(kRayEnergy) * static_cast<long double>(largest_batch_) * batches_;
+    Estimate e;
+    e.mean = static_cast<double>(sum / launched);
+    e.error =
+        batches_ < 2
+            ? std::numeric_limits<double>::infinity()
+            : static_cast<double>(std::sqrt(std::max(0.0L, excess) / (batches_ - 1)) / launched);
+    if (sum == 0) e.error = 0;
+    return e;
 }
 
-double LayerSums::standard_error(const Spread& s) const {
-    const double launched = static_cast<double>(largest_batch_) * batches_;
-    const double mean = static_cast<double>(s.sum) / (static_cast<double>(kRayEnergy) * launched);
-    return mean > 0 ? mean * relative_error(s) : 0.0;
+long double LayerSums::excess(Wide products, std::uint64_t a, std::uint64_t b) const {
+    return batches_ * static_cast<long double>(products) -
+           static_cast<long double>(a) * static_cast<long double>(b);
+}
+
+LayerSums::Estimate LayerSums::estimate(const Spread& s) const {
+    return estimate(static_cast<long double>(s.sum), excess(s.squares, s.sum, s.sum));
+}
+
+LayerSums::Estimate LayerSums::estimate(const CellSpread& s, std::uint64_t energy) const {
+    if (energy == 0) return estimate(s);
+    // With n counted rays of energy f each beside e: (e + f n)^2, term by term
+    const Spread& n = counted_spread_;
+    const long double f = std::ldexp(static_cast<long double>(energy), -kCountShift);
+    return estimate(static_cast<long double>(s.sum) + f * static_cast<long double>(n.sum),
+                    excess(s.squares, s.sum, s.sum) + 2 * f * excess(s.by_counted, s.sum, n.sum) +
+                        f * f * excess(n.squares, n.sum, n.sum));
+}
+
+template <class Work>
+void LayerSums::for_cells(Work work) const {
+    const std::size_t counted = light_ ? light_->cells().size() : 0;
+    std::size_t next = 0;
+    for (std::size_t cell = 0; cell < cells_; ++cell) {
+        const bool has_share = next < counted && light_->cells()[next] == cell;
+        work(cell, has_share ? static_cast<std::ptrdiff_t>(next++) : -1);
+    }
 }
 
 LayerSums::Errors LayerSums::relative_errors() const {
     Errors worst;
     for (std::size_t c = 0; c < channels_; ++c) {
-        worst.albedo = std::max(worst.albedo, relative_error(albedo_spread_[c]));
+        worst.albedo = std::max(worst.albedo, estimate(albedo_spread_[c]).relative());
         // The strongest cells that together carry 90 % of the energy
-        std::vector<const Spread*> cells;
-        for (std::size_t k = 0; k < cells_; ++k)
-            if (cell_spread_[k * channels_ + c].sum > 0)
-                cells.push_back(&cell_spread_[k * channels_ + c]);
+        std::vector<Estimate> cells;
+        for_cells([&](std::size_t cell, std::ptrdiff_t k) {
+            cells.push_back(estimate(cell_spread_[cell * channels_ + c], counted_energy(k, c)));
+        });
         std::sort(cells.begin(), cells.end(),
-                  [](const Spread* a, const Spread* b) { return a->sum > b->sum; });
-        const double enough = 0.9 * static_cast<double>(albedo_spread_[c].sum);
+                  [](const Estimate& a, const Estimate& b) { return a.mean > b.mean; });
+        const double enough = 0.9 * estimate(albedo_spread_[c]).mean;
         double carried = 0;
-        for (std::size_t k = 0; k < cells.size() && carried < enough; ++k) {
-            carried += static_cast<double>(cells[k]->sum);
-            worst.cells = std::max(worst.cells, relative_error(*cells[k]));
+        for (std::size_t k = 0; k < cells.size() && cells[k].mean > 0 && carried < enough; ++k) {
+            carried += cells[k].mean;
+            worst.cells = std::max(worst.cells, cells[k].relative());
         }
     }
     return worst;
@@ -195,23 +262,30 @@ void LayerSums::write(Layer& layer) const {
     layer.stuck = stuck_;
     layer.batches = batches_;
     layer.energy.resize(energy_.size());
-    for (std::size_t cell = 0; cell < cells_; ++cell)
-        for (std::size_t k = 0; k < orders_ * channels_; ++k)
-            layer.energy[k * cells_ + cell] = energy_[cell * orders_ * channels_ + k];
+    layer.stderr_energy.resize(cell_spread_.size());
+    for_cells([&](std::size_t cell, std::ptrdiff_t k) {
+        for (std::size_t n = 0; n < orders_ * channels_; ++n)
+            layer.energy[n * cells_ + cell] = energy_[cell * orders_ * channels_ + n];
+        for (std::size_t c = 0; c < channels_; ++c) {
+            const std::uint64_t energy = counted_energy(k, c);
+            layer.energy[c * cells_ + cell] += counted_ * energy;
+            layer.stderr_energy[c * cells_ + cell] =
+                static_cast<float>(estimate(cell_spread_[cell * channels_ + c], energy).error);
+        }
+    });
     layer.absorbed = absorbed_;
     layer.truncated = truncated_;
     layer.edge = edge_;
     layer.escaped_by_bounce = escaped_by_bounce_;
     layer.escaped.assign(channels_, 0);
-    for (std::size_t k = 0; k < energy_.size(); ++k) layer.escaped[k % channels_] += energy_[k];
+    for (std::size_t k = 0; k < layer.energy.size(); ++k)
+        layer.escaped[k / cells_ % channels_] += layer.energy[k];
 
-    layer.stderr_energy.resize(cell_spread_.size());
-    for (std::size_t k = 0; k < cell_spread_.size(); ++k)
-        layer.stderr_energy[k % channels_ * cells_ + k / channels_] =
-            static_cast<float>(standard_error(cell_spread_[k]));
-    for (const Spread& s : albedo_spread_) layer.stderr_albedo.push_back(standard_error(s));
+    layer.stderr_albedo.clear();
+    for (const Spread& s : albedo_spread_) layer.stderr_albedo.push_back(estimate(s).error);
+    layer.stderr_albedo_by_bounce.clear();
     for (const Spread& s : bounce_spread_)
-        layer.stderr_albedo_by_bounce.push_back(standard_error(s));
+        layer.stderr_albedo_by_bounce.push_back(estimate(s).error);
 
     // Energy is accounted for, to the last unit
     for (std::size_t c = 0; c < channels_; ++c)

@@ -4,10 +4,33 @@
 #include <asperity/gonio/measurement.h>
 #include <asperity/tracing/wide.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace asperity {
+
+/// Where the energy of rays goes that are only counted (gonio/known_facets.h): the same for each.
+class CountedLight {
+  public:
+    CountedLight() = default;
+    /// From how much goes into each cell, [cell * channels + channel], of `total` in each channel.
+    CountedLight(const std::vector<std::uint64_t>& sums, std::size_t channels, std::uint64_t total);
+
+    /// Cells that take a share, in order.
+    const std::vector<std::uint32_t>& cells() const { return cells_; }
+    /// Energy of a ray that goes into cells()[k].
+    std::uint64_t energy(std::size_t k, std::size_t channel) const {
+        return energy_[k * reflected_.size() + channel];
+    }
+    /// Energy of a ray that goes into all cells together; the rest of it is absorbed.
+    std::uint64_t reflected(std::size_t channel) const { return reflected_[channel]; }
+
+  private:
+    std::vector<std::uint32_t> cells_;
+    std::vector<std::uint64_t> energy_;     ///< [k * channels + channel]
+    std::vector<std::uint64_t> reflected_;  ///< per channel
+};
 
 /// Where the energy of one batch of rays went, in integers; the working memory of one thread.
 class BatchSums {
@@ -20,6 +43,8 @@ class BatchSums {
     /// `count` paths left into cells[k] after `order` >= 1 reflections.
     void escape(const PerPath<std::int32_t>& cells, const PerPath<std::int32_t>& paths,
                 std::size_t count, int order, const Weights& weights);
+    /// `count` rays left as `light` says, after one reflection.
+    void escape_counted(std::uint64_t count, const CountedLight& light);
     void truncate(const PerPath<std::int32_t>& paths, std::size_t count, const Weights& weights) {
         settle(truncated_, paths, count, weights);
     }
@@ -42,6 +67,7 @@ class BatchSums {
 
     std::size_t cells_, channels_, orders_, bounces_;
     std::vector<std::uint64_t> energy_;   ///< [(cell * orders + order) * channels + channel]
+    std::uint64_t counted_ = 0;           ///< rays of escape_counted: not in energy_
     std::vector<std::uint32_t> touched_;  ///< cells that hold energy
     std::vector<std::uint8_t> is_touched_;
     std::vector<std::uint64_t> escaped_by_bounce_;  ///< [channel * bounces + order]
@@ -52,7 +78,9 @@ class BatchSums {
 /// batches may be added in any order.
 class LayerSums {
   public:
-    LayerSums(int cells, int channels, int orders, int bounces, std::uint64_t largest_batch);
+    /// `light` is that of the batches' counted rays and outlives the sums; null: there are none.
+    LayerSums(int cells, int channels, int orders, int bounces, std::uint64_t largest_batch,
+              const CountedLight* light = nullptr);
 
     void add(const BatchSums& batch);
     int batches() const { return batches_; }
@@ -79,10 +107,29 @@ class LayerSums {
             squares += Wide{scaled} * scaled;
         }
     };
-    /// Standard error of the mean over batches, as a fraction of the launched energy.
-    double standard_error(const Spread& spread) const;
-    double relative_error(const Spread& spread) const;
+    /// The same for what goes into a cell beside the counted rays, and products with their number.
+    struct CellSpread : Spread {
+        Wide by_counted = 0;
+    };
+    /// Mean over the batches as a fraction of the launched energy, and its standard error.
+    struct Estimate {
+        double mean = 0, error = 0;
+        double relative() const { return mean > 0 ? error / mean : 0.0; }
+    };
+    Estimate estimate(const Spread& spread) const;
+    /// With the counted rays' share of the cell, `energy` each.
+    Estimate estimate(const CellSpread& spread, std::uint64_t energy) const;
+    /// From a sum over the K batches and its excess K sum e^2 - (sum e)^2.
+    Estimate estimate(long double sum, long double excess) const;
+    /// K times a sum of products less the product of the sums.
+    long double excess(Wide products, std::uint64_t a, std::uint64_t b) const;
     std::uint64_t scaled(std::uint64_t energy, std::uint64_t rays) const;
+    /// Calls work(cell, k) for each cell, where k tells its place in light_->cells(), or -1.
+    template <class Work>
+    void for_cells(Work work) const;
+    std::uint64_t counted_energy(std::ptrdiff_t k, std::size_t channel) const {
+        return k < 0 ? 0 : light_->energy(static_cast<std::size_t>(k), channel);
+    }
 
     std::size_t cells_, channels_, orders_, bounces_;
     std::uint64_t largest_batch_;
@@ -90,9 +137,12 @@ class LayerSums {
     std::uint64_t rays_ = 0, segments_ = 0, reflections_ = 0, stuck_ = 0;
     std::vector<std::uint64_t> energy_;  ///< as in BatchSums
     std::vector<std::uint64_t> escaped_by_bounce_, absorbed_, truncated_, edge_;
-    std::vector<Spread> cell_spread_;    ///< [cell * channels + channel]
-    std::vector<Spread> bounce_spread_;  ///< [channel * bounces + order]
-    std::vector<Spread> albedo_spread_;  ///< per channel
+    std::vector<CellSpread> cell_spread_;  ///< [cell * channels + channel]
+    std::vector<Spread> bounce_spread_;    ///< [channel * bounces + order]
+    std::vector<Spread> albedo_spread_;    ///< per channel
+    const CountedLight* light_;
+    std::uint64_t counted_ = 0;  ///< rays
+    Spread counted_spread_;      ///< of their number, in units of 2^-kCountShift
 };
 
 }  // namespace asperity

@@ -10,20 +10,118 @@
 
 namespace asperity {
 
+namespace {
+
+/// Rows launched one after the other, and how wide a strip of them is at most: so that what the
+/// rays see of the surface stays in the second cache from row to row.
+constexpr std::uint64_t kRowsOfPortion = 8;
+constexpr int kStrip = 512;
+/// Rays launched at a time.
+constexpr int kPiece = 64;
+
+}  // namespace
+
+Vec3 direction_of_light(const WideTracer& tracer, const Incidence& light) {
+    Vec3 d = -from_spherical(light.theta, light.phi);
+    if (tracer.mirrored()) d.x = -d.x;
+    return d;
+}
+
+std::uint64_t Follower::end_of_portion(const LaunchBatch& batch, std::uint64_t begin) {
+    if (!batch.in_rows()) return std::min(begin + kWave, batch.rays());
+    return batch.end_of_rows(begin, kRowsOfPortion);
+}
+
 void Follower::follow(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
                       std::uint64_t end, BatchSums& sums) {
     const std::size_t channels =
         scene.fresnel.perfect() ? 0 : static_cast<std::size_t>(scene.fresnel.channels());
     weights_.resize(channels);
     reflectance_.resize(channels);
-    for (PerPath<float>& weights : weights_) std::fill_n(weights.values, end - begin, 1.0f);
-
-    // Find the first facet of every ray
-    launch(scene, batch, begin, end);
     sums.rays += end - begin;
     sums.segments += end - begin;
-    // Some facets are known to send the light out
-    settle_known(scene, sums);
+    if (batch.in_rows() && scene.tracer.periodic()) {
+        follow_rows(scene, batch, begin, end, sums);
+        return;
+    }
+    for (std::uint64_t first = begin; first < end; first += kWave) {
+        const std::uint64_t last = std::min(first + kWave, end);
+        launch_each(scene, batch, first, last);
+        follow_wave(scene, static_cast<std::size_t>(last - first), false, sums);
+    }
+}
+
+void Follower::finish(const Scene& scene, BatchSums& sums) {
+    follow_launched(scene, sums);
+}
+
+void Follower::follow_rows(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
+                           std::uint64_t end, BatchSums& sums) {
+    const WideTracer& tracer = scene.tracer;
+    direction_ = direction_of_light(tracer, batch.incidence());
+    rows_.clear();
+    for (std::uint64_t k = begin; k < end; k += rows_.back().count) {
+        LaunchRow row = batch.row(k);
+        row.count = std::min(row.count, end - k);
+        if (tracer.mirrored()) {
+            // The last ray comes first; rays of a row are all alike
+            const int cells = tracer.cells_x();
+            row.i = (2 * cells - row.i - static_cast<int>(row.count)) % cells;
+            row.u = 1 - row.u;
+        }
+        rows_.push_back(row);
+    }
+    if (direction_.x != 0 || direction_.y != 0) {
+        if (lines_.size() < rows_.size()) lines_.resize(rows_.size());
+        for (std::size_t r = 0; r < rows_.size(); ++r)
+            lines_[r].start(tracer.heights(), rows_[r].u, rows_[r].v, double{tracer.max_height()},
+                            direction_);
+    }
+    launch_rows(scene, sums);
+}
+
+/// Launches the rows, and follows the rays whenever there are enough for a wave.
+void Follower::launch_rows(const Scene& scene, BatchSums& sums) {
+    const WideTracer& tracer = scene.tracer;
+    const CountedFacets known = scene.known ? scene.known->counted() : CountedFacets{};
+    const int cells = tracer.cells_x();
+    const bool down = direction_.x == 0 && direction_.y == 0;
+    for (int x = 0; x < cells; x += kStrip) {
+        const int end = std::min(x + kStrip, cells);
+        for (std::size_t r = 0; r < rows_.size(); ++r) {
+            // A row may pass the end of the tile and go on at its beginning
+            const LaunchRow& row = rows_[r];
+            for (const int begin : {0, cells}) {
+                const int from = std::max(x + begin, row.i);
+                const int to = std::min(end + begin, row.i + static_cast<int>(row.count));
+                for (int i = from; i < to; i += kPiece) {
+                    if (tracer.launched(wave_) + kPiece > kWave) follow_launched(scene, sums);
+                    const LaunchedRow piece{i % cells, row.j, std::min(kPiece, to - i), 0};
+                    if (down)
+                        tracer.launch_down(row.u, row.v, piece, known, wave_);
+                    else
+                        tracer.launch(lines_[r], piece, known, wave_);
+                }
+            }
+        }
+    }
+}
+
+/// Follows the rays of rows that have been launched.
+void Follower::follow_launched(const Scene& scene, BatchSums& sums) {
+    // Some are only counted
+    if (wave_.counted > 0) sums.escape_counted(wave_.counted, scene.known->light());
+    sums.reflections += wave_.counted;
+    sums.segments += wave_.counted;
+    scene.tracer.land(direction_, wave_);
+    for (std::size_t k = 0; k < wave_.points.count; ++k)
+        wave_.points.path[k] = static_cast<std::int32_t>(k);
+    follow_wave(scene, wave_.points.count, true, sums);
+}
+
+/// Follows the rays that stand at their first facets, or have met none, until the last has ended.
+void Follower::follow_wave(const Scene& scene, std::size_t count, bool parallel, BatchSums& sums) {
+    for (PerPath<float>& weights : weights_) std::fill_n(weights.values, count, 1.0f);
     for (int reflections = 0;; ++reflections) {
         // Sort what has left by direction
         settle(scene, reflections, sums);
@@ -31,62 +129,16 @@ void Follower::follow(const Scene& scene, const LaunchBatch& batch, std::uint64_
         if (under_way == 0) break;
         // The bounce limit cuts a ray that would need one reflection more
         if (reflections == scene.bounces) {
-            for (std::size_t k = 0; k < under_way; ++k)
-                paths_[k] = wave_.arriving().path[static_cast<std::size_t>(wave_.points.ray[k])];
-            sums.truncate(paths_, under_way, weights_);
+            sums.truncate(wave_.points.path, under_way, weights_);
             break;
         }
         // Mirror the others at their facets, and find the next facet or the way out
-        reflect(scene, in_rows_ && reflections == 0);
+        reflect(scene, parallel && reflections == 0);
         sums.reflections += under_way;
         sums.segments += under_way;
         scene.tracer.leave(wave_);
     }
-}
-
-void Follower::launch(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
-                      std::uint64_t end) {
-    in_rows_ = batch.in_rows() && scene.tracer.periodic();
-    if (in_rows_)
-        launch_rows(scene, batch, begin, end);
-    else
-        launch_each(scene, batch, begin, end);
-}
-
-void Follower::launch_rows(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
-                           std::uint64_t end) {
-    const WideTracer& tracer = scene.tracer;
-    const FacetAnswers known = scene.known ? scene.known->cells() : nullptr;
-    tracer.clear(wave_);
-    const Vec3 d = set_parallel(tracer, batch.incidence(), end - begin, wave_);
-    for (std::uint64_t k = begin; k < end;) {
-        const LaunchRow row = batch.row(k);
-        const auto count = static_cast<int>(std::min(row.count, end - k));
-        const auto first = static_cast<int>(k - begin);
-        // In a mirrored row the last ray comes first; rays of a row are all alike
-        const int cells = tracer.cells_x();
-        const int i = tracer.mirrored() ? (2 * cells - row.i - count) % cells : row.i;
-        const double u = tracer.mirrored() ? 1 - row.u : row.u;
-        if (d.x == 0 && d.y == 0) {
-            tracer.launch_down(u, row.v, i, row.j, count, first, known, wave_);
-        } else {
-            line_.start(tracer.heights(), u, row.v, double{tracer.max_height()}, d);
-            tracer.launch(line_, i, row.j, count, first, known, wave_);
-        }
-        k += static_cast<std::uint64_t>(count);
-    }
-    tracer.land(wave_);
-}
-
-Vec3 set_parallel(const WideTracer& tracer, const Incidence& light, std::size_t count,
-                  PathWave& wave) {
-    Vec3 d = -from_spherical(light.theta, light.phi);
-    if (tracer.mirrored()) d.x = -d.x;
-    wave.arriving().x[0] = static_cast<float>(d.x);
-    wave.arriving().y[0] = static_cast<float>(d.y);
-    wave.arriving().z[0] = static_cast<float>(d.z);
-    for (std::size_t k = 0; k < count; ++k) wave.arriving().path[k] = static_cast<std::int32_t>(k);
-    return d;
+    scene.tracer.clear(wave_);
 }
 
 void Follower::launch_each(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
@@ -103,21 +155,9 @@ void Follower::launch_each(const Scene& scene, const LaunchBatch& batch, std::ui
     scene.tracer.enter(rays_, wave_);
 }
 
-void Follower::settle_known(const Scene& scene, BatchSums& sums) {
-    const AnsweredRays& answered = wave_.answered;
-    if (answered.count == 0) return;
-    for (std::size_t c = 0; c < weights_.size(); ++c)
-        for (std::size_t k = 0; k < answered.count; ++k)
-            weights_[c][static_cast<std::size_t>(answered.ray[k])] =
-                scene.known->reflectance(c, static_cast<std::size_t>(answered.facet[k]));
-    sums.escape(answered.answer, answered.ray, answered.count, 1, weights_);
-    sums.reflections += answered.count;
-    sums.segments += answered.count;
-}
-
 void Follower::reflect(const Scene& scene, bool parallel) {
-    reflect_paths(wave_.points, wave_.arriving(), parallel, scene.tracer.heights(), wave_.leaving(),
-                  cosine_);
+    reflect_paths(wave_.points, parallel ? &direction_ : nullptr, scene.tracer.heights(),
+                  wave_.leaving(), cosine_);
     // Each facet takes its share
     const std::size_t count = wave_.points.count;
     if (weights_.empty()) return;

@@ -24,41 +24,44 @@ struct Scene {
     const KnownFacets* known = nullptr;  ///< of this light; may be null
 };
 
-/// Gives paths 0 .. count - 1 the direction of the light, all the same one: arriving()[0]. Returns
-/// it in the frame of the tracer.
-Vec3 set_parallel(const WideTracer& tracer, const Incidence& light, std::size_t count,
-                  PathWave& wave);
+/// Direction of travel of parallel light, in the frame of the tracer.
+Vec3 direction_of_light(const WideTracer& tracer, const Incidence& light);
 
 /// Follows rays from facet to facet until they leave; the working memory of one thread.
 class Follower {
   public:
-    /// Rays followed at a time.
-    static constexpr std::uint64_t kMost = kWave;
+    /// The end of a portion of the batch's rays from `begin` on that is good to follow at a time:
+    /// so that those that are near each other come together, some thousand.
+    static std::uint64_t end_of_portion(const LaunchBatch& batch, std::uint64_t begin);
 
-    /// Follows the rays [begin, end) of a batch, at most kMost, and adds what became of their
-    /// energy to `sums`. Adds integers only: the order of the calls does not matter.
+    /// Follows a portion of the rays of a batch and adds what became of their energy to `sums`; the
+    /// last of them may wait for finish(). Adds integers only: the order of the calls does not
+    /// matter. A follower that was not asked to finish must not be used for another batch.
     void follow(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
                 std::uint64_t end, BatchSums& sums);
+    /// Follows the rays that still wait.
+    void finish(const Scene& scene, BatchSums& sums);
 
   private:
-    void launch(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
-                std::uint64_t end);
-    void launch_rows(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
-                     std::uint64_t end);
+    void follow_rows(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
+                     std::uint64_t end, BatchSums& sums);
+    void launch_rows(const Scene& scene, BatchSums& sums);
     void launch_each(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
                      std::uint64_t end);
-    void settle_known(const Scene& scene, BatchSums& sums);
+    void follow_launched(const Scene& scene, BatchSums& sums);
+    void follow_wave(const Scene& scene, std::size_t count, bool parallel, BatchSums& sums);
     void reflect(const Scene& scene, bool parallel);
     void settle(const Scene& scene, int reflections, BatchSums& sums);
 
     PathWave wave_;
-    LaunchLine line_;
+    Vec3 direction_;  ///< of the rays in rows
+    std::vector<LaunchRow> rows_;
+    std::vector<LaunchLine> lines_;  ///< one a row
     PerPath<float> cosine_, cos_phi_, sin_phi_;
-    PerPath<std::int32_t> cells_, paths_;
+    PerPath<std::int32_t> cells_;
     std::vector<PerPath<float>> weights_;  ///< [channel], by path; empty for perfect mirrors
     std::vector<PerPath<float>> reflectance_;
     std::vector<Ray> rays_;
-    bool in_rows_ = false;
 };
 
 }  // namespace asperity

@@ -9,34 +9,41 @@
 
 namespace asperity {
 
-/// Facets that mirror the light of a layer out for certain, wherever on them it falls. Parallel
-/// light leaves such a facet in one direction, so cell and reflectance are worked out once a facet,
-/// and a ray that meets it first needs no more than to be counted. Changes no bit of a result.
+/// Facets that lie in the light of a layer as a whole and mirror it out, wherever on them it falls.
+///
+/// Parallel light leaves such a facet in one direction, and the share of it that the facet takes is
+/// known exactly. So a ray that meets one first is only counted, and what all of these rays carry
+/// is spread over the directions by the facets' shares, not by where the rays happened to fall: no
+/// bias, and no noise but that of their number. docs/theory.md, "Known facets".
 class KnownFacets {
   public:
-    /// Knows nothing.
+    /// Knows none.
     KnownFacets() = default;
     /// Looks at all facets, on run.threads() threads, until it is stopped: what was not looked at
-    /// is not known. Cost: about as much as two rays a cell; 8 bytes a cell, and 8 more for each
-    /// channel unless the facets are perfect mirrors.
+    /// is not known. Knows none when a look here and there finds too few. Cost: less than a ray a
+    /// cell; a byte a cell. Depends on neither the number of threads nor the instruction set.
     KnownFacets(const Scene& scene, const Incidence& incidence, const Run& run);
 
-    /// Whether `rays` of a layer are worth the look: some a cell, on a tile that fits the memory.
+    /// Whether `rays` of a layer are worth the look: one a cell, on a tile that fits the memory.
     static bool pay(const WideTracer& tracer, std::uint64_t rays);
 
-    /// Cell of the detector by facet, -1: not known; null when nothing is known.
-    FacetAnswers cells() const { return cells_.empty() ? nullptr : cells_.data(); }
-    /// By facet; where its cell is known.
-    float reflectance(std::size_t channel, std::size_t facet) const {
-        return reflectance_[channel][facet];
-    }
+    CountedFacets counted() const { return {cells_.empty() ? nullptr : cells_.data(), pitch_}; }
+    /// Where the rays onto them go.
+    const CountedLight& light() const { return light_; }
 
   private:
-    struct Work;
-    void look(const Scene& scene, const Incidence& incidence, int row, Work& work);
+    /// Looks at parallel light on the facets, a row at a time.
+    class Look;
+    bool worthwhile(const Look& look, const Run& run) const;
+    double look_at_all(const Look& look, const Run& run);
+    void find_open(const Look& look, const Run& run);
+    std::uint8_t* row(int j) {
+        return &cells_[static_cast<std::size_t>(j) * static_cast<std::size_t>(pitch_)];
+    }
 
-    std::vector<std::int32_t> cells_;
-    std::vector<std::vector<float>> reflectance_;  ///< [channel]; none for perfect mirrors
+    std::vector<std::uint8_t> cells_;  ///< as in CountedFacets
+    std::int32_t pitch_ = 0;
+    CountedLight light_;
 };
 
 }  // namespace asperity

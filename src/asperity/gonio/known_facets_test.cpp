@@ -2,18 +2,19 @@
 #include <asperity/gonio/known_facets.h>
 
 #include <asperity/core/directions.h>
+#include <asperity/core/energy.h>
 #include <asperity/core/run.h>
 #include <asperity/gonio/test_measurements.h>
 #include <asperity/surface/make_surface.h>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cmath>
 
 namespace asperity {
 namespace {
 
-constexpr int kBounces = 8;
+constexpr int kBounces = 8, kOrders = 4;
 
 struct Case {
     const char* name;
@@ -30,7 +31,7 @@ class KnownFacetsOf : public testing::TestWithParam<Case> {
   protected:
     KnownFacetsOf()
         : surface_(make()),
-          tracer_(surface_, run_),
+          tracer_(surface_, 2),
           fresnel_(optics()),
           detector_(DetectorSettings{DetectorKind::LatLong, 64}) {}
 
@@ -40,20 +41,39 @@ class KnownFacetsOf : public testing::TestWithParam<Case> {
         const std::uint64_t rays = 4 * surface_.cell_count();
         const LaunchBatch batch(surface_, double{tracer_.max_height()}, light_,
                                 LaunchPattern::LowDiscrepancy, rays, 1, 0, 0);
-        BatchSums sums(detector_.cells(), fresnel_.channels(), 4, kBounces);
+        BatchSums sums(detector_.cells(), fresnel_.channels(), kOrders, kBounces);
         Follower follower;
-        for (std::uint64_t k = 0; k < rays; k += Follower::kMost)
-            follower.follow(scene, batch, k, std::min(k + Follower::kMost, rays), sums);
-        LayerSums all(detector_.cells(), fresnel_.channels(), 4, kBounces, rays);
+        for (std::uint64_t k = 0, end = 0; k < rays; k = end) {
+            end = Follower::end_of_portion(batch, k);
+            follower.follow(scene, batch, k, end, sums);
+        }
+        follower.finish(scene, sums);
+        LayerSums all(detector_.cells(), fresnel_.channels(), kOrders, kBounces, rays,
+                      known ? &known->light() : nullptr);
         all.add(sums);
         Layer result;
         all.write(result);
         return result;
     }
-    KnownFacets known() {
-        return {Scene{tracer_, fresnel_, detector_, kBounces, false, nullptr}, light_, run_};
+    KnownFacets known(int threads) {
+        return {Scene{tracer_, fresnel_, detector_, kBounces, false, nullptr}, light_,
+                asperity::Run(threads)};
     }
-    std::size_t facets() const { return 2 * surface_.cell_count(); }
+    /// Facets that are known, of all: lower and upper ones.
+    double known_share(const KnownFacets& known) const {
+        const CountedFacets counted = known.counted();
+        int count = 0;
+        for (int j = 0; j < surface_.cells_y(); ++j)
+            for (int i = 0; i < surface_.cells_x(); ++i) {
+                const std::uint8_t cell = counted.cells[j * counted.pitch + i];
+                count +=
+                    (cell & CountedFacets::kLower ? 1 : 0) + (cell & CountedFacets::kUpper ? 1 : 0);
+            }
+        return count / (2.0 * static_cast<double>(surface_.cell_count()));
+    }
+    std::size_t cells() const { return static_cast<std::size_t>(detector_.cells()); }
+    int channels() const { return fresnel_.channels(); }
+    const Heightfield& surface() const { return surface_; }
 
   private:
     static Heightfield make() {
@@ -75,7 +95,6 @@ class KnownFacetsOf : public testing::TestWithParam<Case> {
         return settings;
     }
 
-    asperity::Run run_{2};
     const Heightfield surface_;
     const WideTracer tracer_;
     const Fresnel fresnel_;
@@ -83,17 +102,62 @@ class KnownFacetsOf : public testing::TestWithParam<Case> {
     const Incidence light_{1, radians(GetParam().theta_deg), radians(GetParam().phi_deg), false};
 };
 
-TEST_P(KnownFacetsOf, ChangeNoBit) {
-    const KnownFacets facets_known = known();
-    const auto answers = std::count_if(facets_known.cells(), facets_known.cells() + facets(),
-                                       [](std::int32_t cell) { return cell >= 0; });
-    EXPECT_GT(static_cast<std::size_t>(answers), facets() / 4);
-    EXPECT_LT(static_cast<std::size_t>(answers), facets());
+/// A ray that is counted must be one that would leave after one reflection, and no other may take
+/// part in it: what happens to all rays is the same, reflection by reflection.
+TEST_P(KnownFacetsOf, LeaveAllOtherRaysAsTheyAre) {
+    const KnownFacets facets = known(2);
+    EXPECT_GT(known_share(facets), 0.25);
+    EXPECT_LT(known_share(facets), 1.0);
 
-    const Layer with = layer(&facets_known), without = layer(nullptr);
-    test::expect_same_bits(with, without);
-    EXPECT_GT(with.escaped_by_bounce[0], 0u);
+    const Layer with = layer(&facets), without = layer(nullptr);
+    EXPECT_EQ(with.segments, without.segments);
+    EXPECT_EQ(with.reflections, without.reflections);
+    EXPECT_EQ(with.truncated, without.truncated);
+    const std::size_t order = cells() * static_cast<std::size_t>(channels());
+    for (std::size_t k = order; k < with.energy.size(); ++k)
+        ASSERT_EQ(with.energy[k], without.energy[k]);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(channels()); ++c) {
+        for (std::size_t b = 1; b < kBounces; ++b)
+            EXPECT_EQ(with.escaped_by_bounce[c * kBounces + b],
+                      without.escaped_by_bounce[c * kBounces + b]);
+        const double first = static_cast<double>(with.escaped_by_bounce[c * kBounces]),
+                     plain = static_cast<double>(without.escaped_by_bounce[c * kBounces]);
+        if (channels() == 1)
+            EXPECT_EQ(first, plain);
+        else
+            EXPECT_NEAR(first / plain, 1, 1e-3);
+    }
     EXPECT_GT(with.escaped_by_bounce[1], 0u) << "no second reflection: the test tests nothing";
+}
+
+/// Their light goes where their rays go, but for the rays' noise: no cell is further off than some
+/// thousand rays allow.
+TEST_P(KnownFacetsOf, SendTheirLightWhereTheirRaysGo) {
+    const KnownFacets facets = known(1);
+    const Layer with = layer(&facets), without = layer(nullptr);
+    const double rays = static_cast<double>(with.rays);
+    double chi_square = 0;
+    int cells_seen = 0;
+    for (std::size_t k = 0; k < cells(); ++k) {
+        const double a = energy_fraction(with.energy[k], with.rays) * rays,
+                     b = energy_fraction(without.energy[k], without.rays) * rays;
+        if (a < 8) continue;
+        chi_square += (a - b) * (a - b) / a;
+        ++cells_seen;
+    }
+    ASSERT_GT(cells_seen, 20);
+    // Of independent rays it would be about 1; a lattice does better
+    EXPECT_LT(chi_square / cells_seen, 1.2);
+}
+
+TEST_P(KnownFacetsOf, DoNotDependOnTheThreads) {
+    const KnownFacets one = known(1), three = known(3);
+    EXPECT_EQ(one.light().cells(), three.light().cells());
+    for (std::size_t k = 0; k < one.light().cells().size(); ++k)
+        for (std::size_t c = 0; c < static_cast<std::size_t>(channels()); ++c)
+            ASSERT_EQ(one.light().energy(k, c), three.light().energy(k, c));
+    const CountedFacets a = one.counted(), b = three.counted();
+    for (int k = 0; k < a.pitch * surface().cells_y(); ++k) ASSERT_EQ(a.cells[k], b.cells[k]);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -114,25 +178,63 @@ Heightfield make_mirror(asperity::Run& run) {
     return make_surface(settings, run);
 }
 
+KnownFacets known_on(const WideTracer& tracer, const Detector& detector, const Incidence& light) {
+    const Fresnel fresnel{OpticsSettings{}};
+    return {Scene{tracer, fresnel, detector, 1, false, nullptr}, light, asperity::Run(1)};
+}
+
 TEST(KnownFacets, OfAMirrorAreAllKnown) {
     asperity::Run run(1);
     const Heightfield surface = make_mirror(run);
     const WideTracer tracer(surface, run);
-    const Fresnel fresnel{OpticsSettings{}};
     const Detector detector(DetectorSettings{DetectorKind::LatLong, 64});
-    const Incidence light{1, radians(30), radians(40), false};
-    const KnownFacets known(Scene{tracer, fresnel, detector, 1, false, nullptr}, light, run);
+    const KnownFacets known =
+        known_on(tracer, detector, Incidence{1, radians(30), radians(40), false});
     const int mirror = detector.cell_of(from_spherical(radians(30), radians(220)));
-    for (int k = 0; k < 2 * 64 * 64; ++k) ASSERT_EQ(known.cells()[k], mirror) << k;
+    ASSERT_EQ(known.light().cells(), std::vector{static_cast<std::uint32_t>(mirror)});
+    EXPECT_EQ(known.light().energy(0, 0), kRayEnergy);
+    for (int j = 0; j < 64; ++j)
+        for (int i = 0; i < 64; ++i)
+            ASSERT_EQ(known.counted().cells[j * known.counted().pitch + i],
+                      CountedFacets::kLower | CountedFacets::kUpper);
+}
+
+/// Grooves of slope s in light across them take (1 + s tan theta) / 2 and (1 - s tan theta) / 2.
+TEST(KnownFacets, OfAGrooveShareTheLightByTheirProjectedAreas) {
+    asperity::Run run(1);
+    SurfaceSettings settings;
+    settings.kind = SurfaceKind::VGroove;
+    settings.size = 64;
+    settings.tilt_deg = 5;
+    const Heightfield surface = make_surface(settings, run);
+    const WideTracer tracer(surface, run);
+    const Detector detector(DetectorSettings{DetectorKind::LatLong, 90});
+    const double theta = radians(30.5), tilt = radians(5);
+    const KnownFacets known = known_on(tracer, detector, Incidence{1, theta, 0, false});
+    const double lean = std::tan(tilt) * std::tan(theta);
+    // The slopes towards the light and away from it mirror it to theta -+ 2 tilt beyond the normal
+    const int towards = detector.cell_of(from_spherical(theta - 2 * tilt, kPi)),
+              away = detector.cell_of(from_spherical(theta + 2 * tilt, kPi));
+    const auto share = [&](int cell) {
+        const auto& cells = known.light().cells();
+        for (std::size_t k = 0; k < cells.size(); ++k)
+            if (cells[k] == static_cast<std::uint32_t>(cell))
+                return std::ldexp(static_cast<double>(known.light().energy(k, 0)), -32);
+        return 0.0;
+    };
+    EXPECT_EQ(known.light().cells().size(), 2u);
+    EXPECT_NEAR(share(towards), (1 + lean) / 2, 1e-6);
+    EXPECT_NEAR(share(away), (1 - lean) / 2, 1e-6);
+    EXPECT_EQ(known.light().reflected(0), kRayEnergy);
 }
 
 TEST(KnownFacets, AreLookedForOnlyWhereThatPays) {
     asperity::Run run(1);
     const Heightfield surface = make_mirror(run);
     const WideTracer tracer(surface, run);
-    EXPECT_FALSE(KnownFacets::pay(tracer, 64 * 64));
-    EXPECT_TRUE(KnownFacets::pay(tracer, 4 * 64 * 64));
-    EXPECT_EQ(KnownFacets().cells(), nullptr);
+    EXPECT_FALSE(KnownFacets::pay(tracer, 64 * 64 - 1));
+    EXPECT_TRUE(KnownFacets::pay(tracer, 64 * 64));
+    EXPECT_EQ(KnownFacets().counted().cells, nullptr);
 }
 
 }  // namespace

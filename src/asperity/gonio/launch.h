@@ -6,6 +6,7 @@
 #include <asperity/surface/heightfield.h>
 #include <asperity/tracing/tracer.h>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace asperity {
@@ -57,6 +58,10 @@ class LaunchBatch {
     }
     /// What is left from ray k on of the row it belongs to; LowDiscrepancy only.
     LaunchRow row(std::uint64_t k) const;
+    /// The first ray beyond `count` rows, that of ray k being the first; at most rays().
+    std::uint64_t end_of_rows(std::uint64_t k, std::uint64_t count) const {
+        return row_begin(std::min(k * rows_ / rays_ + count, rows_));
+    }
     const Incidence& incidence() const { return incidence_; }
 
   private:

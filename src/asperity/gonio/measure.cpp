@@ -172,9 +172,10 @@ class Gonioreflectometer {
     /// Fills one layer; false when it was stopped before two batches were complete.
     bool fill(Layer& layer, const Incidence& light, std::uint32_t stream,
               std::vector<std::string>& notes) {
-        LayerSums sums = layer_sums();
-        std::uint64_t batches = plan_.batches;
         const KnownFacets known = known_facets(light);
+        LayerSums sums(detector_.cells(), fresnel_.channels(), orders(), experiment_.run.bounces,
+                       plan_.largest(), &known.light());
+        std::uint64_t batches = plan_.batches;
         trace_batches(light, known, stream, 0, batches, sums);
 
         // Refine until the errors are small enough
@@ -213,12 +214,13 @@ class Gonioreflectometer {
                                     experiment_.run.launch, plan_.rays_of(b), experiment_.run.seed,
                                     stream, static_cast<std::uint32_t>(b));
             // Follow the rays until they leave, and sort them by direction
-            for (std::uint64_t first = 0; first < batch.rays(); first += Follower::kMost) {
+            for (std::uint64_t first = 0, last = 0; first < batch.rays(); first = last) {
                 if (!run_.keep_going()) return;
-                const std::uint64_t last = std::min(first + Follower::kMost, batch.rays());
+                last = Follower::end_of_portion(batch, first);
                 work->follower.follow(scene, batch, first, last, work->sums);
                 run_.advance(last - first);
             }
+            work->follower.finish(scene, work->sums);
             // Add the batch to its layer; integers, so the order does not matter
             {
                 const std::scoped_lock lock(mutex);
@@ -248,10 +250,6 @@ class Gonioreflectometer {
         return errors.albedo <= run.until && errors.cells <= cells;
     }
 
-    LayerSums layer_sums() const {
-        return {detector_.cells(), fresnel_.channels(), orders(), experiment_.run.bounces,
-                plan_.largest()};
-    }
     int orders() const { return std::min(experiment_.detector.orders, experiment_.run.bounces); }
 
     /// The working memory of a thread, used again by the next batch.

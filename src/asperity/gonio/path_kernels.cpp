@@ -6,39 +6,51 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include <asperity/tracing/lanes-inl.h>
+#include <asperity/tracing/ground-inl.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace asperity::HWY_NAMESPACE {
 namespace {
 
-template <bool kParallel>
-void ReflectPaths(const FacetPoints& points, const Directions& arriving, float per_x, float per_y,
-                  Directions& leaving, PerPath<float>& cosine) {
+/// A direction after a reflection.
+struct Mirrored {
+    Floats x, y, z, level, cosine;
+    Floats d_m;  ///< of the direction before it and the facet's normal (-slope_x, -slope_y, 1)
+};
+HWY_INLINE Mirrored mirror(Floats x, Floats y, Floats z, Floats slope_x, Floats slope_y) {
+    // d' = d - 2 (d.m) m / m.m about m
     const Floats one = all(1.0f);
-    const Floats x0 = all(arriving.x[0]), y0 = all(arriving.y[0]), z0 = all(arriving.z[0]);
+    const Floats d_m = hn::Sub(z, hn::Add(hn::Mul(slope_x, x), hn::Mul(slope_y, y)));
+    const Floats m_m = hn::Add(one, hn::Add(hn::Mul(slope_x, slope_x), hn::Mul(slope_y, slope_y)));
+    const Floats share = hn::Div(hn::Add(d_m, d_m), m_m);
+    Mirrored out;
+    out.x = hn::Add(x, hn::Mul(share, slope_x));
+    out.y = hn::Add(y, hn::Mul(share, slope_y));
+    out.z = hn::Sub(z, share);
+    out.level = hn::Sqrt(hn::Add(hn::Mul(out.x, out.x), hn::Mul(out.y, out.y)));
+    out.cosine = hn::Min(one, hn::Div(hn::Abs(d_m), hn::Sqrt(m_m)));
+    out.d_m = d_m;
+    return out;
+}
+
+template <bool kParallel>
+void ReflectPaths(const FacetPoints& points, const Vec3& d, float per_x, float per_y,
+                  Directions& leaving, PerPath<float>& cosine) {
+    const Floats x0 = all(static_cast<float>(d.x)), y0 = all(static_cast<float>(d.y)),
+                 z0 = all(static_cast<float>(d.z));
     for (std::size_t k = 0; k < points.count; k += kLanes) {
-        const Ints ray = only(first_lanes(k, points.count), load(points.ray, k));
-        const Floats x = kParallel ? x0 : gather(arriving.x, ray);
-        const Floats y = kParallel ? y0 : gather(arriving.y, ray);
-        const Floats z = kParallel ? z0 : gather(arriving.z, ray);
-        const Ints path = kParallel ? ray : gather(arriving.path.values, ray);
-        // d' = d - 2 (d.m) m / m.m about m = (-slope_x, -slope_y, 1)
         const Floats side = load(points.side, k);
-        const Floats slope_x = hn::Mul(hn::Mul(side, load(points.rise_u, k)), all(per_x));
-        const Floats slope_y = hn::Mul(hn::Mul(side, load(points.rise_v, k)), all(per_y));
-        const Floats d_m = hn::Sub(z, hn::Add(hn::Mul(slope_x, x), hn::Mul(slope_y, y)));
-        const Floats m_m =
-            hn::Add(one, hn::Add(hn::Mul(slope_x, slope_x), hn::Mul(slope_y, slope_y)));
-        const Floats share = hn::Div(hn::Add(d_m, d_m), m_m);
-        const Floats new_x = hn::Add(x, hn::Mul(share, slope_x));
-        const Floats new_y = hn::Add(y, hn::Mul(share, slope_y));
-        store(new_x, leaving.x, k);
-        store(new_y, leaving.y, k);
-        store(hn::Sub(z, share), leaving.z, k);
-        store(hn::Sqrt(hn::Add(hn::Mul(new_x, new_x), hn::Mul(new_y, new_y))), leaving.level, k);
-        store(path, leaving.path, k);
-        store(hn::Min(one, hn::Div(hn::Abs(d_m), hn::Sqrt(m_m))), cosine, k);
+        const Mirrored out =
+            mirror(kParallel ? x0 : load(points.x, k), kParallel ? y0 : load(points.y, k),
+                   kParallel ? z0 : load(points.z, k),
+                   hn::Mul(hn::Mul(side, load(points.rise_u, k)), all(per_x)),
+                   hn::Mul(hn::Mul(side, load(points.rise_v, k)), all(per_y)));
+        store(out.x, leaving.x, k);
+        store(out.y, leaving.y, k);
+        store(out.z, leaving.z, k);
+        store(out.level, leaving.level, k);
+        store(load(points.path, k), leaving.path, k);
+        store(out.cosine, cosine, k);
     }
 }
 
@@ -55,15 +67,42 @@ HWY_INLINE Floats eighths(Floats x, Floats y) {
     return select(hn::Gt(y, x), hn::Sub(all(2.0f), a), a);
 }
 
+/// The detector's cells of directions.
+class CellFinder {
+  public:
+    HWY_INLINE CellFinder(bool equal_area, int rows, int columns)
+        : equal_area_(equal_area),
+          to_row_(all(static_cast<float>(rows) * (equal_area ? 1.0f : 0.5f))),
+          to_column_(all(static_cast<float>(columns) / 8)),
+          last_row_(all(rows - 1)),
+          last_column_(all(columns - 1)),
+          columns_(all(columns)) {}
+
+    HWY_INLINE Ints operator()(Floats x, Floats y, Floats z) const {
+        const Floats zero = hn::Zero(kFloat);
+        const Floats level2 = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
+        const Floats polar = equal_area_ ? level2 : eighths(hn::Max(z, zero), hn::Sqrt(level2));
+        Floats azimuth = eighths(hn::Abs(x), hn::Abs(y));
+        azimuth = select(hn::Lt(x, zero), hn::Sub(all(4.0f), azimuth), azimuth);
+        azimuth = select(hn::Lt(y, zero), hn::Sub(all(8.0f), azimuth), azimuth);
+        const Ints row = hn::Min(hn::ConvertTo(kInt, hn::Mul(polar, to_row_)), last_row_);
+        const Ints column =
+            hn::Min(hn::ConvertTo(kInt, hn::Mul(azimuth, to_column_)), last_column_);
+        return hn::Add(hn::Mul(row, columns_), column);
+    }
+
+  private:
+    const bool equal_area_;
+    const Floats to_row_, to_column_;
+    const Ints last_row_, last_column_, columns_;
+};
+
 void FindCells(const Escapes& escapes, bool equal_area, int rows, int columns, float mirror_x,
                const PerPath<float>* cos_phi, const PerPath<float>* sin_phi,
                PerPath<std::int32_t>& cells) {
-    const Floats zero = hn::Zero(kFloat);
-    const Floats to_row = all(static_cast<float>(rows) * (equal_area ? 1.0f : 0.5f));
-    const Floats to_column = all(static_cast<float>(columns) / 8);
+    const CellFinder find(equal_area, rows, columns);
     for (std::size_t k = 0; k < escapes.count; k += kLanes) {
         Floats x = hn::Mul(all(mirror_x), load(escapes.x, k)), y = load(escapes.y, k);
-        const Floats z = hn::Max(load(escapes.z, k), zero);
         if (cos_phi) {
             const Ints path = only(first_lanes(k, escapes.count), load(escapes.path, k));
             const Floats c = gather(*cos_phi, path), s = gather(*sin_phi, path);
@@ -71,25 +110,67 @@ void FindCells(const Escapes& escapes, bool equal_area, int rows, int columns, f
             y = hn::Sub(hn::Mul(c, y), hn::Mul(s, x));
             x = turned;
         }
-        const Floats level2 = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
-        const Floats polar = equal_area ? level2 : eighths(z, hn::Sqrt(level2));
-        Floats azimuth = eighths(hn::Abs(x), hn::Abs(y));
-        azimuth = select(hn::Lt(x, zero), hn::Sub(all(4.0f), azimuth), azimuth);
-        azimuth = select(hn::Lt(y, zero), hn::Sub(all(8.0f), azimuth), azimuth);
-        const Ints row = hn::Min(hn::ConvertTo(kInt, hn::Mul(polar, to_row)), all(rows - 1));
-        const Ints column =
-            hn::Min(hn::ConvertTo(kInt, hn::Mul(azimuth, to_column)), all(columns - 1));
-        store(hn::Add(hn::Mul(row, all(columns)), column), cells, k);
+        store(find(x, y, load(escapes.z, k)), cells, k);
     }
 }
 
-void ReflectParallel(const FacetPoints& points, const Directions& arriving, float per_x,
-                     float per_y, Directions& leaving, PerPath<float>& cosine) {
-    ReflectPaths<true>(points, arriving, per_x, per_y, leaving, cosine);
+/// A row of facets of one kind: O is the corner with the right angle, `side` as in FacetPoints.
+template <class GroundT>
+void look_at_row(const GroundT& ground, const WideGrid& grid, const CellFinder& find,
+                 float mirror_x, const float (&d)[3], int j, bool upper, const FacetRow& row) {
+    const Floats zero = hn::Zero(kFloat), side = all(upper ? -1.0f : 1.0f);
+    const Floats x = all(d[0]), y = all(d[1]), z = all(d[2]);
+    // Towards the light
+    const Ints light_sector = sector_of(hn::Neg(x), hn::Neg(y));
+    const Floats light_level = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
+    const float* below =
+        grid.middle + std::ptrdiff_t{j - grid.middle_y} * grid.pitch - grid.middle_x;
+    const float* above = below + grid.pitch;
+    const float* at_o = upper ? above + 1 : below;
+    const float* at_u = upper ? above : below + 1;
+    const float* at_v = upper ? below + 1 : above;
+    const auto count = static_cast<std::size_t>(grid.cells_x);
+    for (std::size_t k = 0; k < count; k += kLanes) {
+        const Floats o = hn::LoadU(kFloat, at_o + k), u = hn::LoadU(kFloat, at_u + k),
+                     v = hn::LoadU(kFloat, at_v + k);
+        const Mirrored out = mirror(x, y, z, hn::Mul(hn::Mul(side, hn::Sub(u, o)), ground.per_x),
+                                    hn::Mul(hn::Mul(side, hn::Sub(v, o)), ground.per_y));
+        // Free, and in the light, wherever on the facet: beyond the horizon of its cell
+        const Ints i = hn::Add(hn::Iota(kInt, static_cast<std::int32_t>(k)), all(-grid.middle_x));
+        const Ints cell =
+            only(first_lanes(k, count),
+                 hn::Or(hn::And(i, all(0xffff)), all(pack_vertex(0, j - grid.middle_y))));
+        Floats slope = ground.steepest, light_slope = ground.steepest;
+        if (ground.horizon_pays) {
+            slope = hn::Min(slope, ground.horizon(cell, sector_of(out.x, out.y)));
+            light_slope = hn::Min(light_slope, ground.horizon(cell, light_sector));
+        }
+        const Mask on_top = hn::Ge(hn::Min(o, hn::Min(u, v)), ground.max_height);
+        const Mask free =
+            hn::Or(hn::And(on_top, hn::Ge(out.z, zero)), hn::Gt(out.z, hn::Mul(slope, out.level)));
+        const Mask lit =
+            hn::And(hn::Lt(out.d_m, zero),
+                    hn::Or(on_top, hn::Gt(hn::Neg(z), hn::Mul(light_slope, light_level))));
+        hn::StoreU(find(hn::Mul(all(mirror_x), out.x), out.y, out.z), kInt, row.cells + k);
+        hn::StoreU(hn::IfThenElseZero(hn::And(free, lit), hn::Div(out.d_m, z)), kFloat,
+                   row.flux + k);
+        hn::StoreU(out.cosine, kFloat, row.cosine + k);
+    }
 }
-void ReflectAny(const FacetPoints& points, const Directions& arriving, float per_x, float per_y,
-                Directions& leaving, PerPath<float>& cosine) {
-    ReflectPaths<false>(points, arriving, per_x, per_y, leaving, cosine);
+void LookAtFacets(const WideGrid& grid, bool equal_area, int rows, int columns, float mirror_x,
+                  const float (&d)[3], int j, bool upper, const FacetRow& row) {
+    const CellFinder find(equal_area, rows, columns);
+    on_ground(grid, [&](const auto& ground)
+                        HWY_ATTR { look_at_row(ground, grid, find, mirror_x, d, j, upper, row); });
+}
+
+void ReflectParallel(const FacetPoints& points, const Vec3& d, float per_x, float per_y,
+                     Directions& leaving, PerPath<float>& cosine) {
+    ReflectPaths<true>(points, d, per_x, per_y, leaving, cosine);
+}
+void ReflectAny(const FacetPoints& points, float per_x, float per_y, Directions& leaving,
+                PerPath<float>& cosine) {
+    ReflectPaths<false>(points, {}, per_x, per_y, leaving, cosine);
 }
 
 }  // namespace
@@ -102,15 +183,16 @@ namespace asperity {
 HWY_EXPORT(ReflectParallel);
 HWY_EXPORT(ReflectAny);
 HWY_EXPORT(FindCells);
+HWY_EXPORT(LookAtFacets);
 
-void reflect_paths(const FacetPoints& points, const Directions& arriving, bool parallel,
-                   const PaddedHeights& heights, Directions& leaving, PerPath<float>& cosine) {
+void reflect_paths(const FacetPoints& points, const Vec3* parallel, const PaddedHeights& heights,
+                   Directions& leaving, PerPath<float>& cosine) {
     const auto per_x = static_cast<float>(1 / heights.dx());
     const auto per_y = static_cast<float>(1 / heights.dy());
     if (parallel)
-        HWY_DYNAMIC_DISPATCH(ReflectParallel)(points, arriving, per_x, per_y, leaving, cosine);
+        HWY_DYNAMIC_DISPATCH(ReflectParallel)(points, *parallel, per_x, per_y, leaving, cosine);
     else
-        HWY_DYNAMIC_DISPATCH(ReflectAny)(points, arriving, per_x, per_y, leaving, cosine);
+        HWY_DYNAMIC_DISPATCH(ReflectAny)(points, per_x, per_y, leaving, cosine);
 }
 
 void find_cells(const Escapes& escapes, const Detector& detector, float mirror_x,
@@ -119,6 +201,15 @@ void find_cells(const Escapes& escapes, const Detector& detector, float mirror_x
     HWY_DYNAMIC_DISPATCH(FindCells)
     (escapes, detector.kind() == DetectorKind::EqualArea, detector.rows(), detector.columns(),
      mirror_x, cos_phi, sin_phi, cells);
+}
+
+void look_at_facets(const WideGrid& grid, const Detector& detector, float mirror_x, Vec3 d, int j,
+                    bool upper, const FacetRow& row) {
+    const float direction[3] = {static_cast<float>(d.x), static_cast<float>(d.y),
+                                static_cast<float>(d.z)};
+    HWY_DYNAMIC_DISPATCH(LookAtFacets)
+    (grid, detector.kind() == DetectorKind::EqualArea, detector.rows(), detector.columns(),
+     mirror_x, direction, j, upper, row);
 }
 
 }  // namespace asperity

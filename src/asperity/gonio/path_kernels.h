@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <asperity/core/vec.h>
 #include <asperity/gonio/detector.h>
 #include <asperity/tracing/padded_heights.h>
 #include <asperity/tracing/wide.h>
+#include <asperity/tracing/wide_grid.h>
 
 namespace asperity {
 
 /// Mirrors paths at the facets they stand on, in single precision: leaving[k] is the direction of
-/// points k, cosine[k] the cosine between it and the facet's normal. With `parallel` all paths come
-/// along arriving[0], and path k is ray k.
-void reflect_paths(const FacetPoints& points, const Directions& arriving, bool parallel,
-                   const PaddedHeights& heights, Directions& leaving, PerPath<float>& cosine);
+/// points k, cosine[k] the cosine between it and the facet's normal. Where `parallel` is not null
+/// all paths come along it.
+void reflect_paths(const FacetPoints& points, const Vec3* parallel, const PaddedHeights& heights,
+                   Directions& leaving, PerPath<float>& cosine);
 
 /// Detector::cell_of for the directions of paths, within some 1e-7 rad of the cells' edges.
 /// mirror_x is -1 if the directions are to be mirrored in x, else 1; cos_phi and sin_phi, by path,
@@ -19,5 +21,20 @@ void reflect_paths(const FacetPoints& points, const Directions& arriving, bool p
 void find_cells(const Escapes& escapes, const Detector& detector, float mirror_x,
                 const PerPath<float>* cos_phi, const PerPath<float>* sin_phi,
                 PerPath<std::int32_t>& cells);
+
+/// What becomes of parallel light on the facets of a row, one value each; may be written up to
+/// kSlack values beyond the row.
+struct FacetRow {
+    static constexpr std::size_t kSlack = 16;
+    std::int32_t* cells;  ///< of the detector: where the facet sends it
+    /// Of a facet that lies in the light as a whole and mirrors it out for certain: what it takes,
+    /// as a multiple of what falls onto half a cell. Of others: 0.
+    float* flux;
+    float* cosine;  ///< as of reflect_paths
+};
+/// Looks at the lower or upper facets of the row `j` of cells in parallel light along `d`, both in
+/// the frame of the tracer.
+void look_at_facets(const WideGrid& grid, const Detector& detector, float mirror_x, Vec3 d, int j,
+                    bool upper, const FacetRow& row);
 
 }  // namespace asperity

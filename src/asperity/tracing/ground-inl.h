@@ -15,6 +15,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace asperity::HWY_NAMESPACE {
 
+/// Heights of the corners of cells: (0, 0), (1, 0), (0, 1), (1, 1).
+struct CellHeights {
+    Floats h00, h10, h01, h11;
+};
+
 /// The surface, with its constants in registers. kLongRows: rows of 2^15 samples and more, too long
 /// for one packed multiplication.
 template <bool kLongRows>
@@ -30,6 +35,7 @@ class Ground {
           horizon_pays(grid.horizon_pays),
           leaps_pay(grid.leaps_pay),
           middle_(grid.middle),
+          pairs_(grid.pairs),
           pitch_(grid.pitch),
           horizon_(grid.horizon),
           horizon_pitch_(grid.horizon_pitch),
@@ -39,16 +45,29 @@ class Ground {
               all(pack_vertex(grid.cells_x - grid.middle_x - 1, grid.cells_y - grid.middle_y - 1))),
           cells_(all(pack_vertex(grid.cells_x, grid.cells_y))) {}
 
-    /// Height of a vertex on the surface or in its margin.
-    HWY_INLINE Floats height(Ints vertex) const {
-        if constexpr (!kLongRows) {
-            return gather(middle_, index_of(vertex, pitch_));
-        } else {
-            const Ints row = hn::And(vertex, all(~0xffff));
-            const std::int32_t half = pitch_ / 2;
-            return gather(middle_, hn::Add(index_of(vertex, half), index_of(row, half)));
+    /// Heights of the corners of a cell on the surface or in its margin.
+    HWY_INLINE CellHeights corners(Ints cell) const {
+        const Fields f = gather_fields<2>(pairs_, sample_of(cell));
+        return {f.a, f.c, f.b, f.d};
+    }
+    /// Fetches into the cache what the paths of some lanes will see that go on from `cell`.
+    HWY_INLINE void fetch(Ints cell, Mask lanes, Mask to_small_y) const {
+        alignas(64) std::int32_t sample[kLanes], row[kLanes], entry[kLanes];
+        std::uint8_t bits[8] = {};
+        hn::StoreMaskBits(kFloat, lanes, bits);
+        hn::Store(sample_of(cell), kInt, sample);
+        hn::Store(select(to_small_y, all(-pitch_), all(pitch_)), kInt, row);
+        hn::Store(entry_of(cell), kInt, entry);
+        for (unsigned left = bits[0] | unsigned{bits[1]} << 8; left != 0; left &= left - 1) {
+            const auto lane = static_cast<unsigned>(__builtin_ctz(left));
+            const float* at = pairs_ + 2 * std::ptrdiff_t{sample[lane]};
+            for (int n = 0; n < 3; ++n) __builtin_prefetch(at + 2 * n * std::ptrdiff_t{row[lane]});
+            __builtin_prefetch(horizon_ + entry[lane]);
         }
     }
+
+    /// Height of a vertex on the surface or in its margin.
+    HWY_INLINE Floats height(Ints vertex) const { return gather(middle_, sample_of(vertex)); }
 
     /// The same vertex, or cell, inside the first tile; at most one tile away from it.
     HWY_INLINE Ints wrap(Ints vertex) const {
@@ -69,10 +88,7 @@ class Ground {
 
     /// The slope above which nothing rises in this sector as seen from `cell`, which is inside.
     HWY_INLINE Floats horizon(Ints cell, Ints sector) const {
-        Ints block = cell;
-        if (pool_shift_ > 0)
-            block = hn::BitCast(kInt, hn::ShiftRightSame(hn::BitCast(kHalf, cell), pool_shift_));
-        const Ints at = hn::Add(hn::ShiftLeft<4>(index_of(block, horizon_pitch_)), sector);
+        const Ints at = hn::Add(entry_of(cell), sector);
         const Floats byte = hn::ConvertTo(kFloat, gather_bytes(horizon_, at));
         const Floats slope = hn::Mul(hn::Mul(byte, byte), all(Horizon::kStep));
         return select(hn::Gt(byte, all(254.5f)), all(1e30f), slope);
@@ -82,7 +98,24 @@ class Ground {
     const bool periodic, horizon_pays, leaps_pay;
 
   private:
+    HWY_INLINE Ints entry_of(Ints cell) const {
+        Ints block = cell;
+        if (pool_shift_ > 0)
+            block = hn::BitCast(kInt, hn::ShiftRightSame(hn::BitCast(kHalf, cell), pool_shift_));
+        return hn::ShiftLeft<4>(index_of(block, horizon_pitch_));
+    }
+    HWY_INLINE Ints sample_of(Ints vertex) const {
+        if constexpr (!kLongRows) {
+            return index_of(vertex, pitch_);
+        } else {
+            const Ints row = hn::And(vertex, all(~0xffff));
+            const std::int32_t half = pitch_ / 2;
+            return hn::Add(index_of(vertex, half), index_of(row, half));
+        }
+    }
+
     const float* middle_;
+    const float* pairs_;
     const std::int32_t pitch_;
     const std::uint8_t* horizon_;
     const std::int32_t horizon_pitch_;
@@ -114,12 +147,13 @@ HWY_INLINE Ints sector_of(Floats x, Floats y) {
 struct Line {
     Floats du, dv;
     Floats k_x, k_y;
+    Floats rate;  ///< k_x = du * rate, k_y = dv * rate
 };
 template <class GroundT>
 HWY_INLINE Line line_of(const GroundT& ground, Floats x, Floats y, Floats z) {
     const Floats du = hn::Mul(x, ground.per_x), dv = hn::Mul(y, ground.per_y);
     const Floats rate = hn::Div(z, hn::Add(hn::Mul(du, du), hn::Mul(dv, dv)));
-    return {du, dv, hn::Mul(du, rate), hn::Mul(dv, rate)};
+    return {du, dv, hn::Mul(du, rate), hn::Mul(dv, rate), rate};
 }
 
 }  // namespace asperity::HWY_NAMESPACE

@@ -12,8 +12,6 @@ void LaunchLine::start(const PaddedHeights& heights, double u, double v, double 
     rounds_.clear();
     triangles_.clear();
     pitch_ = heights.pitch();
-    u_ = u;
-    v_ = v;
     z_ = z;
     du_ = d.x / heights.dx();
     dv_ = d.y / heights.dy();
@@ -26,67 +24,68 @@ void LaunchLine::start(const PaddedHeights& heights, double u, double v, double 
     const bool turned = du_ < 0;
     const double cu = std::abs(du_), cv = turned ? -dv_ : dv_;
     const bool lower = (u + v < 1) != turned;
-    Vertex a{};
+    const int sign = turned ? -1 : 1;
+    int a_x = 0, a_y = 0;
     if (cv >= 0) {
-        step_x_ = {1, 0};
-        step_y_ = {0, 1};
-        a = {0, 1};
+        step_x_ = step(sign, 0);
+        step_y_ = step(0, sign);
+        a_y = 1;
     } else if (cu + cv >= 0) {
-        step_x_ = {1, -1};
-        step_y_ = {1, 0};
-        a = lower ? Vertex{0, 1} : Vertex{1, 1};
+        step_x_ = step(sign, -sign);
+        step_y_ = step(sign, 0);
+        a_x = lower ? 0 : 1;
+        a_y = 1;
     } else {
-        step_x_ = {0, -1};
-        step_y_ = {1, -1};
-        a = lower ? Vertex{1, 0} : Vertex{1, 1};
+        step_x_ = step(0, -sign);
+        step_y_ = step(sign, -sign);
+        a_x = 1;
+        a_y = lower ? 0 : 1;
     }
     if (turned) {
-        step_x_ = Vertex{} - step_x_;
-        step_y_ = Vertex{} - step_y_;
-        a = Vertex{1, 1} - a;
+        a_x = 1 - a_x;
+        a_y = 1 - a_y;
     }
-    a_ = a;
+    a_ = {a_x, a_y, du_ * (a_y - v) - dv_ * (a_x - u), z + k_x_ * (a_x - u) + k_y_ * (a_y - v)};
 }
 
-void LaunchLine::add_triangle(Vertex a, Vertex b, Vertex c) {
-    const Vertex cell{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})};
-    const bool upper = a.x + b.x + c.x - 3 * cell.x == 2;
-    const Vertex corner = upper ? cell + Vertex{1, 1} : cell;
-    triangles_.push_back({pack_vertex(corner.x, corner.y), upper ? -1.0f : 1.0f,
-                          static_cast<float>(w(corner)), static_cast<float>(z(corner))});
-}
-
-LaunchLine::Edge LaunchLine::edge(Vertex left, Vertex right) const {
-    const double w_left = w(left), w_right = w(right);
-    return {index(left), index(right), static_cast<float>(w_left), static_cast<float>(w_right),
-            static_cast<float>(z(left) * w_right - z(right) * w_left)};
+void LaunchLine::add_triangle(const Vertex& a, const Vertex& b, const Vertex& c) {
+    // Of two of the three corners x is the same, and of two y; where these meet is the right angle
+    const int x = a.x == b.x || a.x == c.x ? a.x : b.x, y = a.y == b.y || a.y == c.y ? a.y : b.y;
+    const Vertex& corner = a.x == x && a.y == y ? a : b.x == x && b.y == y ? b : c;
+    const bool upper = a.x + b.x + c.x < 3 * x;
+    triangles_.push_back({pack_vertex(x, y), upper ? -1.0f : 1.0f, static_cast<float>(corner.w),
+                          static_cast<float>(corner.z)});
 }
 
 void LaunchLine::add_round() {
     Round& r = rounds_.emplace_back();
     const Vertex step_ab = step_x_ - step_y_;
     Vertex b = a_ + step_ab;
-    r.edges[0] = edge(a_, b);
+    r.first_x = a_.x;
+    r.first_y = a_.y;
+    r.edges[0] = edge(r, a_, b);
     add_triangle(a_, b, a_ - step_y_);
     r.lowest_x = std::min(a_.x, b.x);
     r.lowest_y = std::min(a_.y, b.y);
+    int highest_y = std::max(a_.y, b.y);
     for (int n = 0; n < kSteps; ++n) {
         // Out of the second triangle of the rhombus, over a side edge ...
         const Vertex c = a_ + step_x_;
-        const bool right = w(c) < 0;
-        r.edges[2 * n + 1] = right ? edge(a_, c) : edge(c, b);
+        const bool right = c.w < 0;
+        r.edges[2 * n + 1] = right ? edge(r, a_, c) : edge(r, c, b);
         add_triangle(a_, b, c);
         // ... and out of the first one of the next rhombus
         a_ = a_ + (right ? step_y_ : step_x_);
         b = a_ + step_ab;
-        r.edges[2 * n + 2] = edge(a_, b);
+        r.edges[2 * n + 2] = edge(r, a_, b);
         add_triangle(a_, b, a_ - step_y_);
         r.lowest_x = std::min({r.lowest_x, c.x, a_.x, b.x});
         r.lowest_y = std::min({r.lowest_y, c.y, a_.y, b.y});
+        highest_y = std::max({highest_y, c.y, a_.y, b.y});
     }
+    r.rows = highest_y - r.lowest_y + 1;
     // Rays go down, so they are lowest at the end; a little less for rounding to float
-    const double w_a = w(a_), w_b = w(b);
-    const double end = (z(a_) * -w_b + z(b) * w_a) / (w_a - w_b);
+    const double end = (b.z * a_.w - a_.z * b.w) / (a_.w - b.w);
     r.lowest_z = static_cast<float>(end - 1e-5 * (std::abs(end) + std::abs(z_ - end)));
 }
 

@@ -25,22 +25,24 @@ class LaunchLine {
     struct Triangle {
         std::int32_t corner;  ///< O, packed
         float side;           ///< as in FacetPoints
-        float w, z;           ///< of the rays' line beside O, as in TriangleHits
+        float w, z;           ///< of the rays' line beside O, as in ParallelHits
     };
-    /// An edge between two vertices on either side of the rays, looked up as indices from the
-    /// start's cell. The surface there rises above a ray just when
+    /// An edge between two vertices on either side of the rays, as indices from the first vertex of
+    /// its round. The surface there rises above a ray just when
     /// height(left) * w_right - height(right) * w_left < limit, see wide_walk-inl.h.
     struct Edge {
-        std::ptrdiff_t left, right;
+        std::int32_t left, right;
         float w_left, w_right, limit;
     };
     struct Round {
         Edge edges[kEdges];
-        int lowest_x, lowest_y;  ///< no vertex of the round lies before this one
+        int first_x, first_y;    ///< the first vertex, counted from the start's cell
+        int lowest_x, lowest_y;  ///< no vertex of the round lies before this one, counted likewise
+        int rows;                ///< of vertices
         float lowest_z;          ///< no ray of the round comes lower than this
     };
     /// A round reaches at most this far from its lowest vertex, in x and in y.
-    static constexpr int kReach = kSteps + 3;
+    static constexpr int kReach = kSteps + 1;
 
     /// Begins a new line. Rays start at (u, v) in [0, 1] of their cell, at height `z`, in direction
     /// `d`, which is in units of length and in the frame of `heights`; d.x, d.y not both 0.
@@ -60,20 +62,31 @@ class LaunchLine {
     double k_y() const { return k_y_; }
 
   private:
+    /// A vertex, or a step between two, counted from the cell of the start: its distance from the
+    /// rays' line and the height of the rays beside it, or by how much these grow.
     struct Vertex {
-        int x, y;
-        friend Vertex operator+(Vertex a, Vertex b) { return {a.x + b.x, a.y + b.y}; }
-        friend Vertex operator-(Vertex a, Vertex b) { return {a.x - b.x, a.y - b.y}; }
+        std::int32_t x, y;
+        double w, z;
+        friend Vertex operator+(const Vertex& a, const Vertex& b) {
+            return {a.x + b.x, a.y + b.y, a.w + b.w, a.z + b.z};
+        }
+        friend Vertex operator-(const Vertex& a, const Vertex& b) {
+            return {a.x - b.x, a.y - b.y, a.w - b.w, a.z - b.z};
+        }
     };
-    double w(Vertex a) const { return du_ * (a.y - v_) - dv_ * (a.x - u_); }
-    double z(Vertex a) const { return z_ + k_x_ * (a.x - u_) + k_y_ * (a.y - v_); }
-    std::ptrdiff_t index(Vertex a) const { return static_cast<std::ptrdiff_t>(a.y) * pitch_ + a.x; }
-    Edge edge(Vertex left, Vertex right) const;
-    void add_triangle(Vertex a, Vertex b, Vertex c);
+    Vertex step(int x, int y) const { return {x, y, du_ * y - dv_ * x, k_x_ * x + k_y_ * y}; }
+    Edge edge(const Round& round, const Vertex& left, const Vertex& right) const {
+        const auto index = [&](const Vertex& v) {
+            return (v.y - round.first_y) * pitch_ + (v.x - round.first_x);
+        };
+        return {index(left), index(right), static_cast<float>(left.w), static_cast<float>(right.w),
+                static_cast<float>(left.z * right.w - right.z * left.w)};
+    }
+    void add_triangle(const Vertex& a, const Vertex& b, const Vertex& c);
     void add_round();
 
     int pitch_ = 0;
-    double u_ = 0, v_ = 0, z_ = 0, du_ = 0, dv_ = 0, k_x_ = 0, k_y_ = 0;
+    double z_ = 0, du_ = 0, dv_ = 0, k_x_ = 0, k_y_ = 0;
     Vertex step_x_{}, step_y_{}, a_{};
     std::vector<Round> rounds_;
     std::vector<Triangle> triangles_;

@@ -8,28 +8,30 @@
 
 namespace asperity {
 
-/// The highest points of overlapping windows of the surface: what a group of rays launched side by
-/// side can meet during one round. A ray above the top of its window flies on without looking.
+/// The highest points of short pieces of rows of samples: what rays launched side by side may meet
+/// on a piece of their way. Rays above all of them fly on without looking.
 ///
-/// Memory: 4 bytes per 64 cells. Periodic surfaces only.
+/// Memory: half a byte a cell. Periodic surfaces only.
 class RowTops {
   public:
-    static constexpr int kStride = 8;  ///< cells from window to window
+    static constexpr int kPiece = 8;      ///< samples of a piece
+    static constexpr int kPieces = 8;     ///< that may be read from one on
+    static constexpr int kRowsMore = 16;  ///< rows that may be read beyond the tile
 
-    /// A window that begins at cell (i, j) holds the samples up to (i + width, j + depth).
     /// Throws Error(Stopped) once the run is to be stopped.
-    RowTops(const PaddedHeights& heights, int width, int depth, const Run& run);
+    RowTops(const PaddedHeights& heights, const Run& run);
 
-    /// At least the highest sample (x, y) with i <= x <= i + width, j <= y <= j + depth;
-    /// 0 <= i < cells_x, 0 <= j < cells_y.
-    float top(int i, int j) const {
-        return tops_[static_cast<std::size_t>(j / kStride) * static_cast<std::size_t>(columns_) +
-                     static_cast<std::size_t>(i / kStride)];
+    /// The piece that sample (x, y) is in, and kPieces - 1 more, together the samples x + 0 ..
+    /// x + kPiece * (kPieces - 1) and some beside them; 0 <= x < cells_x, 0 <= y < cells_y +
+    /// kRowsMore. The next row is pitch() further.
+    const float* from(int x, int y) const {
+        return tops_.data() + static_cast<std::ptrdiff_t>(y) * pitch_ + x / kPiece;
     }
+    std::ptrdiff_t pitch() const { return pitch_; }
     std::size_t memory_bytes() const { return tops_.size() * sizeof(float); }
 
   private:
-    int columns_ = 0;
+    std::ptrdiff_t pitch_ = 0;
     std::vector<float> tops_;
 };
 

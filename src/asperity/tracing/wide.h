@@ -38,12 +38,18 @@ inline int vertex_y(std::int32_t packed) {
     return packed >> 16;
 }
 
+/// A direction of travel, and whose it is: what is looked up together lies together.
+struct Heading {
+    float x, y, z;
+    std::int32_t path;
+};
+
 /// Directions of travel, unit length, and what every step needs of them.
 struct Directions {
     PerPath<float> x, y, z;
-    PerPath<float> level;          ///< length of the horizontal part
-    PerPath<std::int32_t> sector;  ///< Horizon::sector_of
-    PerPath<std::int32_t> path;    ///< which path this is; stays the same through all bounces
+    PerPath<float> level;        ///< length of the horizontal part
+    PerPath<std::int32_t> path;  ///< which path this is; stays the same through all bounces
+    PerPath<Heading> headings;   ///< x, y, z, path once more, of paths that have set out
 };
 
 /// Points on facets. A facet is known by its right-angled corner O and by `side`: +1 for the lower
@@ -54,29 +60,27 @@ struct FacetPoints {
     PerPath<float> side;                    ///< +1, -1
     PerPath<float> u, v;                    ///< from O, in cells, along side * x and side * y
     PerPath<float> height, rise_u, rise_v;  ///< of O, and from there to the other two corners
-    PerPath<std::int32_t> ray;              ///< index into the Directions the path came with
+    PerPath<float> x, y, z;                 ///< direction the path came along; not of parallel rays
+    PerPath<std::int32_t> path;             ///< as in Directions; of parallel rays their number
 };
 
 /// Paths under way between the facets; see wide_walk-inl.h.
 struct Walkers {
     std::size_t count = 0;
-    PerPath<std::int32_t> a;               ///< vertex A, left of the path
-    PerPath<std::int32_t> step_x, step_y;  ///< the two ways to the next rhombus
-    PerPath<float> w, w_x, w_y;            ///< distance of A from the path's line; per step
-    PerPath<float> z, z_x, z_y;            ///< height of the path beside A; per step
-    PerPath<float> g_a, g_b;               ///< surface above path at A and at B
-    PerPath<float> climb, level;           ///< of the direction: vertical and horizontal part
-    PerPath<float> spared;                 ///< -0: the first side edge belongs to the own facet
+    PerPath<std::int32_t> cell;
+    PerPath<float> w, w_l, w_r;  ///< distance of the cell's left corner from the path's line; steps
+    PerPath<float> z, z_l, z_r;  ///< height of the path beside that corner; steps
+    PerPath<float> climb, level;  ///< of the direction: vertical and horizontal part
+    PerPath<float> passed;        ///< -0: of the cell's two facets, the path stands on the second
     PerPath<std::int32_t> sector, ray;
 };
 
-/// Triangles that paths have fallen into, and the lines of the paths: direction (du, dv) in cells,
-/// height per cell, and beside the corner O the distance `w` from the line and the height `z`.
-struct TriangleHits {
+/// Triangles that parallel rays have fallen into: FacetPoints' corner and side, and beside the
+/// corner the distance `w` from the line of the ray and its height `z`.
+struct ParallelHits {
     std::size_t count = 0;
     PerPath<std::int32_t> corner;
     PerPath<float> side, w, z;
-    PerPath<float> du, dv, k_x, k_y;
     PerPath<std::int32_t> ray;
 };
 

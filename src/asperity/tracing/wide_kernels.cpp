@@ -17,38 +17,32 @@
 namespace asperity {
 
 HWY_EXPORT(LaunchSideBySide);
-HWY_EXPORT(PartAnswered);
-HWY_EXPORT(IdentifyLaunched);
+HWY_EXPORT(SortLaunched);
 HWY_EXPORT(LaunchStraightDown);
 HWY_EXPORT(PartFree);
 HWY_EXPORT(SetOut);
 HWY_EXPORT(Walk);
 HWY_EXPORT(Release);
-HWY_EXPORT(Identify);
 HWY_EXPORT(Land);
+HWY_EXPORT(LandParallel);
 
-void launch_side_by_side(const LaunchPlace& place, LaunchLine& line, int i, int j, int count,
-                         int first, LaunchHits& hits) {
-    HWY_DYNAMIC_DISPATCH(LaunchSideBySide)(place, line, i, j, count, first, hits);
+void launch_side_by_side(const LaunchPlace& place, LaunchLine& line, const LaunchedRow& row,
+                         const CountedFacets& known, LaunchHits& hits, std::size_t& counted) {
+    HWY_DYNAMIC_DISPATCH(LaunchSideBySide)(place, line, row, known, hits, counted);
 }
-void part_answered(const WideGrid& grid, const LaunchLine& line, FacetAnswers answers,
-                   LaunchHits& launched, AnsweredRays& answered) {
-    HWY_DYNAMIC_DISPATCH(PartAnswered)(grid, line, answers, launched, answered);
+void sort_launched(const WideGrid& grid, const LaunchLine& line, const LaunchHits& launched,
+                   const CountedFacets& known, ParallelHits& hits, std::size_t& counted) {
+    HWY_DYNAMIC_DISPATCH(SortLaunched)(grid, line, launched, known, hits, counted);
 }
-void identify_launched(const LaunchHits& launched, const LaunchLine& line, TriangleHits& hits) {
-    HWY_DYNAMIC_DISPATCH(IdentifyLaunched)(launched, line, hits);
-}
-void launch_straight_down(const WideGrid& grid, float u, float v, int i, int j, int count,
-                          int first, FacetAnswers answers, FacetPoints& points,
-                          AnsweredRays& answered) {
-    HWY_DYNAMIC_DISPATCH(LaunchStraightDown)
-    (grid, u, v, i, j, count, first, answers, points, answered);
+void launch_straight_down(const WideGrid& grid, float u, float v, const LaunchedRow& row,
+                          const CountedFacets& known, FacetPoints& points, std::size_t& counted) {
+    HWY_DYNAMIC_DISPATCH(LaunchStraightDown)(grid, u, v, row, known, points, counted);
 }
 void part_free(const WideGrid& grid, FacetPoints& points, Directions& directions,
                Escapes& escapes) {
     HWY_DYNAMIC_DISPATCH(PartFree)(grid, points, directions, escapes);
 }
-void set_out(const WideGrid& grid, const FacetPoints& points, const Directions& directions,
+void set_out(const WideGrid& grid, const FacetPoints& points, Directions& directions,
              const PerPath<float>* start_height, Walkers& walkers) {
     HWY_DYNAMIC_DISPATCH(SetOut)(grid, points, directions, start_height, walkers);
 }
@@ -60,12 +54,13 @@ void release(const Leavers& leavers, const Directions& directions, bool with_pla
              Escapes& escapes) {
     HWY_DYNAMIC_DISPATCH(Release)(leavers, directions, with_places, escapes);
 }
-void identify(const WideGrid& grid, const RawHits& raw, const Directions& directions,
-              TriangleHits& hits) {
-    HWY_DYNAMIC_DISPATCH(Identify)(grid, raw, directions, hits);
+void land(const WideGrid& grid, const RawHits& hits, const Directions& directions,
+          FacetPoints& points) {
+    HWY_DYNAMIC_DISPATCH(Land)(grid, hits, directions, points);
 }
-void land(const WideGrid& grid, const TriangleHits& hits, FacetPoints& points) {
-    HWY_DYNAMIC_DISPATCH(Land)(grid, hits, points);
+void land_parallel(const WideGrid& grid, const ParallelHits& hits, const Vec3& direction,
+                   FacetPoints& points) {
+    HWY_DYNAMIC_DISPATCH(LandParallel)(grid, hits, direction, points);
 }
 
 }  // namespace asperity

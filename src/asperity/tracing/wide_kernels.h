@@ -6,21 +6,22 @@
 
 namespace asperity {
 
-/// Rhombi a path walks between two looks around.
-inline constexpr int kRhombiPerRound = 4;
+/// Cells a path walks between two looks around.
+inline constexpr int kCellsPerRound = 4;
 
-/// What a walk has hit, to be told in full later: its line is known beside the vertex `beside`.
+/// What a walk has hit, to be told in full later: a cell, by its first facet or its second, and the
+/// line of the path beside the left corner of another cell.
 struct RawHits {
     std::size_t count = 0;
-    PerPath<std::int32_t> a, step_x, step_y, beside, ray;
-    PerPath<float> in_second, w, z;
+    PerPath<std::int32_t> cell, from_cell, ray;
+    PerPath<float> in_first, w, z;
 };
 
 /// The work of a wave between two facets.
 struct PathWaveWork {
     Walkers walkers;
     RawHits raw;
-    TriangleHits hits;
+    ParallelHits parallel;
     Leavers leavers;
     LaunchHits launched;
     PerPath<float> start_height;
@@ -28,18 +29,16 @@ struct PathWaveWork {
 
 // The kernels, for the instruction set of this processor; each is told where it is written.
 
-/// wide_launch-inl.h
-void launch_side_by_side(const LaunchPlace& place, LaunchLine& line, int i, int j, int count,
-                         int first, LaunchHits& hits);
-void part_answered(const WideGrid& grid, const LaunchLine& line, FacetAnswers answers,
-                   LaunchHits& launched, AnsweredRays& answered);
-void identify_launched(const LaunchHits& launched, const LaunchLine& line, TriangleHits& hits);
-void launch_straight_down(const WideGrid& grid, float u, float v, int i, int j, int count,
-                          int first, FacetAnswers answers, FacetPoints& points,
-                          AnsweredRays& answered);
+/// wide_launch-inl.h; `counted` grows by the rays onto counted facets.
+void launch_side_by_side(const LaunchPlace& place, LaunchLine& line, const LaunchedRow& row,
+                         const CountedFacets& known, LaunchHits& hits, std::size_t& counted);
+void sort_launched(const WideGrid& grid, const LaunchLine& line, const LaunchHits& launched,
+                   const CountedFacets& known, ParallelHits& hits, std::size_t& counted);
+void launch_straight_down(const WideGrid& grid, float u, float v, const LaunchedRow& row,
+                          const CountedFacets& known, FacetPoints& points, std::size_t& counted);
 /// wide_leave-inl.h
 void part_free(const WideGrid& grid, FacetPoints& points, Directions& directions, Escapes& escapes);
-void set_out(const WideGrid& grid, const FacetPoints& points, const Directions& directions,
+void set_out(const WideGrid& grid, const FacetPoints& points, Directions& directions,
              const PerPath<float>* start_height, Walkers& walkers);
 /// wide_walk-inl.h: until no path is under way or all have gone `most_rounds` rounds.
 void walk(const WideGrid& grid, bool from_above, int most_rounds, Walkers& walkers, RawHits& hits,
@@ -47,8 +46,9 @@ void walk(const WideGrid& grid, bool from_above, int most_rounds, Walkers& walke
 void release(const Leavers& leavers, const Directions& directions, bool with_places,
              Escapes& escapes);
 /// wide_land-inl.h
-void identify(const WideGrid& grid, const RawHits& raw, const Directions& directions,
-              TriangleHits& hits);
-void land(const WideGrid& grid, const TriangleHits& hits, FacetPoints& points);
+void land(const WideGrid& grid, const RawHits& hits, const Directions& directions,
+          FacetPoints& points);
+void land_parallel(const WideGrid& grid, const ParallelHits& hits, const Vec3& direction,
+                   FacetPoints& points);
 
 }  // namespace asperity

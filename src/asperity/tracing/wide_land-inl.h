@@ -14,98 +14,117 @@
 HWY_BEFORE_NAMESPACE();
 namespace asperity::HWY_NAMESPACE {
 
-/// The two corners of a facet beside O, as steps from it.
-HWY_INLINE Ints corner_u(Floats side) {
-    return select(negative(side), all(pack_vertex(-1, 0)), all(pack_vertex(1, 0)));
-}
-HWY_INLINE Ints corner_v(Floats side) {
-    return select(negative(side), all(pack_vertex(0, -1)), all(pack_vertex(0, 1)));
-}
+/// A triangle, and the line of the path that has fallen into it: its distance `w` from the corner,
+/// and the path's height `z` beside that.
+struct Fallen {
+    Ints cell;
+    Mask upper;
+    Floats w, z;
+    Line line;
+};
 
-/// Tells which triangles were hit, and where the lines of the paths are beside their corners.
-template <class GroundT>
-void identify_on(const GroundT& ground, const RawHits& raw, const Directions& directions,
-                 TriangleHits& hits) {
-    for (std::size_t k = 0; k < raw.count; k += kLanes) {
-        const Mask valid = first_lanes(k, raw.count);
-        // The triangle A, B, A + step_x or A - step_y; O is the corner with the right angle
-        const Ints a = load(raw.a, k);
-        const Ints step_x = load(raw.step_x, k), step_y = load(raw.step_y, k);
-        const Ints b = plus(a, minus(step_x, step_y));
-        const Ints c = select(negative(load(raw.in_second, k)), plus(a, step_x), minus(a, step_y));
-        const Ints cell = smaller(a, smaller(b, c));
-        const Ints sum = minus(plus(minus(a, cell), minus(b, cell)), minus(cell, c));
-        const Ints upper = hn::And(minus(sum, all(pack_vertex(1, 1))), all(pack_vertex(1, 1)));
-        const Ints corner = plus(cell, upper);
-        const Mask is_lower = hn::RebindMask(kFloat, hn::Eq(upper, hn::Zero(kInt)));
-
-        const Ints ray = only(valid, load(raw.ray, k));
-        const Line line = line_of(ground, gather(directions.x, ray), gather(directions.y, ray),
-                                  gather(directions.z, ray));
-        const Ints away = minus(corner, load(raw.beside, k));
-        const Floats dx = hn::ConvertTo(kFloat, x_of(away)), dy = hn::ConvertTo(kFloat, y_of(away));
-        const auto along = [&](Floats per_x, Floats per_y)
-                               HWY_ATTR { return hn::Add(hn::Mul(per_x, dx), hn::Mul(per_y, dy)); };
-        store(corner, hits.corner, k);
-        store(select(is_lower, all(1.0f), all(-1.0f)), hits.side, k);
-        store(hn::Add(load(raw.w, k), along(hn::Neg(line.dv), line.du)), hits.w, k);
-        store(hn::Add(load(raw.z, k), along(line.k_x, line.k_y)), hits.z, k);
-        store(line.du, hits.du, k);
-        store(line.dv, hits.dv, k);
-        store(line.k_x, hits.k_x, k);
-        store(line.k_y, hits.k_y, k);
-        store(ray, hits.ray, k);
-    }
-    hits.count = raw.count;
-}
-void Identify(const WideGrid& grid, const RawHits& raw, const Directions& directions,
-              TriangleHits& hits) {
-    on_ground(grid,
-              [&](const auto& ground) HWY_ATTR { identify_on(ground, raw, directions, hits); });
-}
-
-/// Finds the points where the paths meet their triangles: the surface above the path, g, and the
+/// Finds the points where paths meet their triangles: the surface above the path, g, and the
 /// distance from its line, w, both vanish there, so its barycentric coordinates are the cross
 /// product of both at the three corners.
 template <class GroundT>
-void land_on(const GroundT& ground, const TriangleHits& hits, FacetPoints& points) {
+HWY_INLINE void land_at(const GroundT& ground, const Fallen& at, Mask valid, FacetPoints& points,
+                        std::size_t k) {
     const Floats zero = hn::Zero(kFloat), one = all(1.0f);
-    for (std::size_t k = 0; k < hits.count; k += kLanes) {
-        const Mask valid = first_lanes(k, hits.count);
-        const Ints corner = only(valid, load(hits.corner, k));
-        const Floats side = load(hits.side, k);
-        const Line line{load(hits.du, k), load(hits.dv, k), load(hits.k_x, k), load(hits.k_y, k)};
-        const Floats height = ground.height(corner);
-        const Floats rise_u = hn::Sub(ground.height(plus(corner, corner_u(side))), height);
-        const Floats rise_v = hn::Sub(ground.height(plus(corner, corner_v(side))), height);
+    const CellHeights h = ground.corners(only(valid, at.cell));
+    const Floats height = select(at.upper, h.h11, h.h00);
+    const Floats rise_u = hn::Sub(select(at.upper, h.h01, h.h10), height);
+    const Floats rise_v = hn::Sub(select(at.upper, h.h10, h.h01), height);
+    const Floats side = select(at.upper, all(-1.0f), one);
 
-        const Floats w_o = load(hits.w, k);
-        const Floats w_u = hn::Sub(w_o, hn::Mul(side, line.dv));
-        const Floats w_v = hn::Add(w_o, hn::Mul(side, line.du));
-        const Floats g_o = hn::Sub(height, load(hits.z, k));
-        const Floats g_u = hn::Add(g_o, hn::Sub(rise_u, hn::Mul(side, line.k_x)));
-        const Floats g_v = hn::Add(g_o, hn::Sub(rise_v, hn::Mul(side, line.k_y)));
-        const auto cross = [](Floats w1, Floats g1, Floats w2, Floats g2)
-                               HWY_ATTR { return hn::Sub(hn::Mul(w1, g2), hn::Mul(w2, g1)); };
-        const Floats b_o = cross(w_u, g_u, w_v, g_v), b_u = cross(w_v, g_v, w_o, g_o),
-                     b_v = cross(w_o, g_o, w_u, g_u);
-        const Floats share = hn::Div(one, hn::Add(b_o, hn::Add(b_u, b_v)));
-        const Floats u = hn::Min(hn::Max(hn::Mul(b_u, share), zero), one);
-        const Floats v = hn::Min(hn::Max(hn::Mul(b_v, share), zero), hn::Sub(one, u));
+    const Floats w_o = at.w;
+    const Floats w_u = hn::Sub(w_o, hn::Mul(side, at.line.dv));
+    const Floats w_v = hn::Add(w_o, hn::Mul(side, at.line.du));
+    const Floats g_o = hn::Sub(height, at.z);
+    const Floats g_u = hn::Add(g_o, hn::Sub(rise_u, hn::Mul(side, at.line.k_x)));
+    const Floats g_v = hn::Add(g_o, hn::Sub(rise_v, hn::Mul(side, at.line.k_y)));
+    const auto cross = [](Floats w1, Floats g1, Floats w2, Floats g2)
+                           HWY_ATTR { return hn::Sub(hn::Mul(w1, g2), hn::Mul(w2, g1)); };
+    const Floats b_o = cross(w_u, g_u, w_v, g_v), b_u = cross(w_v, g_v, w_o, g_o),
+                 b_v = cross(w_o, g_o, w_u, g_u);
+    const Floats share = hn::Div(one, hn::Add(b_o, hn::Add(b_u, b_v)));
+    const Floats u = hn::Min(hn::Max(hn::Mul(b_u, share), zero), one);
+    const Floats v = hn::Min(hn::Max(hn::Mul(b_v, share), zero), hn::Sub(one, u));
 
-        store(ground.periodic ? ground.wrap(corner) : corner, points.corner, k);
-        store(side, points.side, k);
-        store(u, points.u, k);
-        store(v, points.v, k);
-        store(height, points.height, k);
-        store(rise_u, points.rise_u, k);
-        store(rise_v, points.rise_v, k);
-        store(load(hits.ray, k), points.ray, k);
-    }
+    const Ints corner = plus(at.cell, only(at.upper, all(pack_vertex(1, 1))));
+    store(ground.periodic ? ground.wrap(corner) : corner, points.corner, k);
+    store(side, points.side, k);
+    store(u, points.u, k);
+    store(v, points.v, k);
+    store(height, points.height, k);
+    store(rise_u, points.rise_u, k);
+    store(rise_v, points.rise_v, k);
+}
+
+/// Tells which of a cell's two facets was hit.
+template <class GroundT>
+HWY_INLINE Fallen identify(const GroundT& ground, const RawHits& hits, const Fields& heading,
+                           std::size_t k) {
+    const Floats zero = hn::Zero(kFloat);
+    Fallen f;
+    f.cell = load(hits.cell, k);
+    f.line = line_of(ground, heading.a, heading.b, heading.c);
+    const View view(hn::Lt(heading.a, zero), hn::Lt(heading.b, zero));
+    const auto beside = [&](Floats at, Floats per_x, Floats per_y, Ints away) HWY_ATTR {
+        return hn::Add(at, hn::Add(hn::Mul(per_x, hn::ConvertTo(kFloat, x_of(away))),
+                                   hn::Mul(per_y, hn::ConvertTo(kFloat, y_of(away)))));
+    };
+
+    // Where the diagonal runs along, the path came to the left of it last if the far corner is on
+    // the right, and first if the near one is
+    const Ints way = minus(f.cell, load(hits.from_cell, k));
+    const Mask in_first = negative(load(hits.in_first, k));
+    const Floats w_left = beside(load(hits.w, k), hn::Neg(f.line.dv), f.line.du, way);
+    const Floats w_l = hn::Abs(select(view.along, f.line.dv, f.line.du)),
+                 w_r = hn::Neg(hn::Abs(select(view.along, f.line.du, f.line.dv)));
+    const Floats w_end = select(in_first, hn::Sub(w_left, w_l), hn::Add(w_left, w_r));
+    const Mask on_left =
+        hn::Or(hn::And(view.along, negative(w_end)), hn::Not(hn::Or(view.along, in_first)));
+    f.upper = hn::Xor(on_left, view.flip_x);
+
+    const Ints to_corner =
+        minus(plus(way, only(f.upper, all(pack_vertex(1, 1)))), view.left_corner());
+    f.w = beside(load(hits.w, k), hn::Neg(f.line.dv), f.line.du, to_corner);
+    f.z = beside(load(hits.z, k), f.line.k_x, f.line.k_y, to_corner);
+    return f;
+}
+
+void Land(const WideGrid& grid, const RawHits& hits, const Directions& directions,
+          FacetPoints& points) {
+    on_ground(grid, [&](const auto& ground) HWY_ATTR {
+        for (std::size_t k = 0; k < hits.count; k += kLanes) {
+            const Mask valid = first_lanes(k, hits.count);
+            const Fields heading =
+                gather_fields(directions.headings.values, only(valid, load(hits.ray, k)));
+            land_at(ground, identify(ground, hits, heading, k), valid, points, k);
+            store(heading.a, points.x, k);
+            store(heading.b, points.y, k);
+            store(heading.c, points.z, k);
+            store(hn::BitCast(kInt, heading.d), points.path, k);
+        }
+    });
     points.count = hits.count;
 }
-void Land(const WideGrid& grid, const TriangleHits& hits, FacetPoints& points) {
-    on_ground(grid, [&](const auto& ground) HWY_ATTR { land_on(ground, hits, points); });
+
+void LandParallel(const WideGrid& grid, const ParallelHits& hits, const Vec3& direction,
+                  FacetPoints& points) {
+    on_ground(grid, [&](const auto& ground) HWY_ATTR {
+        const Line line =
+            line_of(ground, all(static_cast<float>(direction.x)),
+                    all(static_cast<float>(direction.y)), all(static_cast<float>(direction.z)));
+        for (std::size_t k = 0; k < hits.count; k += kLanes) {
+            const Floats side = load(hits.side, k);
+            const Fallen fallen{cell_of(load(hits.corner, k), side), negative(side),
+                                load(hits.w, k), load(hits.z, k), line};
+            land_at(ground, fallen, first_lanes(k, hits.count), points, k);
+            store(load(hits.ray, k), points.path, k);
+        }
+    });
+    points.count = hits.count;
 }
 
 }  // namespace asperity::HWY_NAMESPACE

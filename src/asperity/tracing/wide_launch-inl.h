@@ -20,7 +20,7 @@ namespace asperity::HWY_NAMESPACE {
 constexpr int kVectors = kLaunchGroup / static_cast<int>(kLanes);
 
 /// The number of the first edge of the round at which each ray is below the surface, or kEdges;
-/// `at` points to the sample at the first ray's cell. Backwards, so that the first one wins.
+/// `at` points to the first ray's first vertex. Backwards, so that the first one wins.
 HWY_INLINE void find_first_edges(const LaunchLine::Round& round, const float* at,
                                  Floats (&first)[kVectors]) {
     for (Floats& f : first) f = hn::BitCast(kFloat, all(LaunchLine::kEdges));
@@ -47,24 +47,38 @@ HWY_INLINE int wrapped(int index, int count) {
     return rest < 0 ? rest + count : rest;
 }
 
-/// A group of kLaunchGroup rays, `count` of them wanted, from cell (i, j) on; hits are appended.
+/// Whether all rays of a group fly above everything in a round that begins at the sample (x, y).
+HWY_INLINE bool flies_above(const RowTops& tops, const LaunchLine::Round& round, int x, int y) {
+    static_assert(kLaunchGroup - 1 + LaunchLine::kReach <=
+                  RowTops::kPiece * (RowTops::kPieces - 1));
+    static_assert(LaunchLine::kReach + 1 <= RowTops::kRowsMore && RowTops::kPieces == 8);
+    const hn::CappedTag<float, 8> pieces;
+    const std::size_t lanes = hn::Lanes(pieces);
+    const float* from = tops.from(x, y);
+    auto top = hn::LoadU(pieces, from);
+    for (int row = 0; row < round.rows; ++row)
+        for (std::size_t k = 0; k < RowTops::kPieces; k += lanes)
+            top = hn::Max(top, hn::LoadU(pieces, from + row * tops.pitch() + k));
+    return hn::AllTrue(pieces, hn::Le(top, hn::Set(pieces, round.lowest_z)));
+}
+
+/// A group of kLaunchGroup rays from cell (i, j) on, as far as they are `open`; hits are appended.
 HWY_INLINE void launch_group(const LaunchPlace& place, LaunchLine& line, int i, int j, int first,
-                             int count, LaunchHits& hits) {
+                             Mask (&open)[kVectors], LaunchHits& hits) {
+    static_assert(kLaunchGroup + LaunchLine::kReach <= PaddedHeights::kMargin);
     const PaddedHeights& heights = *place.heights;
-    Mask open[kVectors];  // lanes that have not hit yet
-    for (int n = 0; n < kVectors; ++n)
-        open[n] =
-            first_lanes(static_cast<std::size_t>(n) * kLanes, static_cast<std::size_t>(count));
     bool flying = true;
     for (std::size_t r = 0; flying; ++r) {
         const LaunchLine::Round& round = line.round(r);
         const int x = wrapped(i + round.lowest_x, heights.cells_x());
         const int y = wrapped(j + round.lowest_y, heights.cells_y());
-        if (round.lowest_z >= place.tops->top(x, y)) continue;
+        if (flies_above(*place.tops, round, x, y)) continue;
 
+        // Where the first ray's cell would be if its way led here without leaving the tile
+        const int start_x = x - round.lowest_x, start_y = y - round.lowest_y;
         const float* at = heights.origin() +
-                          static_cast<std::ptrdiff_t>(y - round.lowest_y) * heights.pitch() +
-                          (x - round.lowest_x);
+                          static_cast<std::ptrdiff_t>(start_y + round.first_y) * heights.pitch() +
+                          (start_x + round.first_x);
         Floats first_edges[kVectors];
         find_first_edges(round, at, first_edges);
         flying = false;
@@ -74,8 +88,8 @@ HWY_INLINE void launch_group(const LaunchPlace& place, LaunchLine& line, int i, 
             const Mask hit = hn::And(open[n], below);
             if (!hn::AllFalse(kFloat, hit)) {
                 const Ints lane = hn::Iota(kInt, n * static_cast<int>(kLanes));
-                const Ints cell_x = hn::Add(all(x - round.lowest_x - place.grid->middle_x), lane);
-                const Ints cell_y = all((y - round.lowest_y - place.grid->middle_y) * (1 << 16));
+                const Ints cell_x = hn::Add(all(start_x - place.grid->middle_x), lane);
+                const Ints cell_y = all(pack_vertex(0, start_y - place.grid->middle_y));
                 const Packer pack(hit);
                 pack(hn::Add(all(static_cast<std::int32_t>(r) * LaunchLine::kEdges), edge),
                      hits.triangle, hits.count);
@@ -89,125 +103,118 @@ HWY_INLINE void launch_group(const LaunchPlace& place, LaunchLine& line, int i, 
     }
 }
 
-void LaunchSideBySide(const LaunchPlace& place, LaunchLine& line, int i, int j, int count,
-                      int first, LaunchHits& hits) {
-    for (int k = 0; k < count; k += kLaunchGroup) {
-        const int start = i + k < place.grid->cells_x ? i + k : i + k - place.grid->cells_x;
-        launch_group(place, line, start, j, first + k, std::min(count - k, kLaunchGroup), hits);
+/// Leaves those of `count` rays open that have to fly, and counts the others; true if there are
+/// any.
+HWY_INLINE bool find_open(const CountedFacets& known, int i, int j, int count,
+                          Mask (&open)[kVectors], std::size_t& counted) {
+    bool any = false;
+    for (int n = 0; n < kVectors; ++n) {
+        const std::size_t lane = static_cast<std::size_t>(n) * kLanes;
+        open[n] = first_lanes(lane, static_cast<std::size_t>(count));
+        if (known.cells) {
+            const hn::Rebind<std::uint8_t, IntTag> bytes;
+            const std::uint8_t* at =
+                known.cells + static_cast<std::ptrdiff_t>(j) * known.pitch + i + lane;
+            const Ints byte = hn::PromoteTo(kInt, hn::LoadU(bytes, at));
+            const Mask sure = hn::And(
+                open[n], hn::RebindMask(kFloat, hn::Eq(hn::And(byte, all(CountedFacets::kOpen)),
+                                                       hn::Zero(kInt))));
+            counted += hn::CountTrue(kFloat, sure);
+            open[n] = hn::AndNot(sure, open[n]);
+        }
+        any = any || !hn::AllFalse(kFloat, open[n]);
+    }
+    return any;
+}
+
+void LaunchSideBySide(const LaunchPlace& place, LaunchLine& line, const LaunchedRow& row,
+                      const CountedFacets& known, LaunchHits& hits, std::size_t& counted) {
+    const int cells_x = place.grid->cells_x;
+    for (int k = 0; k < row.count; k += kLaunchGroup) {
+        const int i = row.i + k < cells_x ? row.i + k : row.i + k - cells_x;
+        Mask open[kVectors];
+        if (find_open(known, i, row.j, std::min(row.count - k, kLaunchGroup), open, counted))
+            launch_group(place, line, i, row.j, row.first + k, open, hits);
     }
 }
 
-/// The answers for facets, by their corners and sides; -1 in lanes that are not valid.
-struct Answers {
-    Ints facet, answer;
-    Mask known;
-};
-HWY_INLINE Answers answers_of(const WideGrid& grid, const Ground<true>& ground, Mask valid,
-                              FacetAnswers answers, Ints corner, Floats side) {
+/// Lanes whose facets are counted ones.
+HWY_INLINE Mask is_counted(const WideGrid& grid, const Ground<true>& ground, Mask valid,
+                           const CountedFacets& known, Ints corner, Floats side) {
     const Ints cell = ground.wrap(cell_of(corner, side));
-    const Ints plane =
-        hn::And(hn::BroadcastSignBit(hn::BitCast(kInt, side)), all(grid.cells_x * grid.cells_y));
-    const Ints first = all(grid.middle_y * grid.cells_x + grid.middle_x);
-    Answers a;
-    a.facet = only(valid, hn::Add(hn::Add(index_of(cell, grid.cells_x), first), plane));
-    a.answer = gather(answers, a.facet);
-    a.known = hn::AndNot(negative(hn::BitCast(kFloat, a.answer)), valid);
-    return a;
-}
-HWY_INLINE void pack_answered(const Answers& a, Ints ray, AnsweredRays& answered) {
-    const Packer pack(a.known);
-    pack(a.answer, answered.answer, answered.count);
-    pack(a.facet, answered.facet, answered.count);
-    pack(ray, answered.ray, answered.count);
-    answered.count += pack.count;
+    const Ints first = all(grid.middle_y * known.pitch + grid.middle_x);
+    const Ints byte =
+        gather_bytes(known.cells, only(valid, hn::Add(index_of(cell, known.pitch), first)));
+    const Ints bit = select(negative(side), all(CountedFacets::kUpper), all(CountedFacets::kLower));
+    return hn::And(valid, hn::RebindMask(kFloat, hn::Ne(hn::And(byte, bit), hn::Zero(kInt))));
 }
 
-/// Takes the rays out whose facets have an answer; the others move up.
-void PartAnswered(const WideGrid& grid, const LaunchLine& line, FacetAnswers answers,
-                  LaunchHits& launched, AnsweredRays& answered) {
+/// Looks up the triangles that were hit, and appends those that are to be followed to `hits`.
+void SortLaunched(const WideGrid& grid, const LaunchLine& line, const LaunchHits& launched,
+                  const CountedFacets& known, ParallelHits& hits, std::size_t& counted) {
     const Ground<true> ground(grid);
     const LaunchLine::Triangle* triangles = line.triangles();
-    std::size_t kept = 0;
     for (std::size_t k = 0; k < launched.count; k += kLanes) {
         const Mask valid = first_lanes(k, launched.count);
-        const Ints triangle = only(valid, load(launched.triangle, k));
-        const Ints start = load(launched.cell, k), ray = load(launched.ray, k);
-        const Ints corner = gather_by_lane<std::int32_t>(
-            triangle, [=](std::int64_t n) { return triangles[n].corner; });
-        const Floats side =
-            gather_by_lane<float>(triangle, [=](std::int64_t n) { return triangles[n].side; });
-        const Answers a = answers_of(grid, ground, valid, answers, plus(start, corner), side);
-        pack_answered(a, ray, answered);
-
-        const Packer pack(hn::AndNot(a.known, valid));
-        pack(triangle, launched.triangle, kept);
-        pack(start, launched.cell, kept);
-        pack(ray, launched.ray, kept);
-        kept += pack.count;
+        const Fields triangle = gather_fields(triangles, only(valid, load(launched.triangle, k)));
+        const Ints corner = plus(load(launched.cell, k), hn::BitCast(kInt, triangle.a));
+        const Floats side = triangle.b;
+        Mask open = valid;
+        if (known.cells) {
+            const Mask sure = is_counted(grid, ground, valid, known, corner, side);
+            counted += hn::CountTrue(kFloat, sure);
+            open = hn::AndNot(sure, valid);
+        }
+        const Packer pack(open);
+        pack(corner, hits.corner, hits.count);
+        pack(side, hits.side, hits.count);
+        pack(triangle.c, hits.w, hits.count);
+        pack(triangle.d, hits.z, hits.count);
+        pack(load(launched.ray, k), hits.ray, hits.count);
+        hits.count += pack.count;
     }
-    launched.count = kept;
 }
 
-/// Looks up the triangles that were hit, and appends them to `hits`.
-void IdentifyLaunched(const LaunchHits& launched, const LaunchLine& line, TriangleHits& hits) {
-    const LaunchLine::Triangle* triangles = line.triangles();
-    const Floats du = all(static_cast<float>(line.du())), dv = all(static_cast<float>(line.dv()));
-    const Floats k_x = all(static_cast<float>(line.k_x())),
-                 k_y = all(static_cast<float>(line.k_y()));
-    for (std::size_t k = 0; k < launched.count; k += kLanes) {
-        const Ints at = only(first_lanes(k, launched.count), load(launched.triangle, k));
-        const auto append = [&](auto value, auto& to) HWY_ATTR {
-            hn::StoreU(value, hn::DFromV<decltype(value)>(), to.values + hits.count + k);
-        };
-        const auto fetch = [&](auto field) HWY_ATTR {
-            using Field = std::remove_cvref_t<decltype(triangles->*field)>;
-            return gather_by_lane<Field>(at, [=](std::int64_t n) { return triangles[n].*field; });
-        };
-        append(plus(load(launched.cell, k), fetch(&LaunchLine::Triangle::corner)), hits.corner);
-        append(fetch(&LaunchLine::Triangle::side), hits.side);
-        append(fetch(&LaunchLine::Triangle::w), hits.w);
-        append(fetch(&LaunchLine::Triangle::z), hits.z);
-        append(du, hits.du);
-        append(dv, hits.dv);
-        append(k_x, hits.k_x);
-        append(k_y, hits.k_y);
-        append(load(launched.ray, k), hits.ray);
-    }
-    hits.count += launched.count;
-}
-
-/// Rays straight down meet the facet below them; nothing to fly. Appends them to `points`, and
-/// those whose facet has an answer to `answered`.
-void LaunchStraightDown(const WideGrid& grid, float u, float v, int i, int j, int count, int first,
-                        FacetAnswers answers, FacetPoints& points, AnsweredRays& answered) {
+/// Rays straight down meet the facet below them; nothing to fly. Those that are to be followed are
+/// appended to `points`. The row must not pass the end of the tile.
+void LaunchStraightDown(const WideGrid& grid, float u, float v, const LaunchedRow& row,
+                        const CountedFacets& known, FacetPoints& points, std::size_t& counted) {
     const Ground<true> ground(grid);
     const bool upper = u + v >= 1;
-    const Floats side = all(upper ? -1.0f : 1.0f);
-    const int corner = upper ? 1 : 0;
-    for (int k = 0; k < count; k += static_cast<int>(kLanes)) {
-        const Ints lane = hn::Iota(kInt, k), ray = hn::Add(lane, all(first));
-        const Ints x = hn::Add(lane, all(i + corner - grid.middle_x));
-        const Ints vertex = ground.wrap(
-            hn::Or(hn::And(x, all(0xffff)), all(pack_vertex(0, j + corner - grid.middle_y))));
-        Mask open = first_lanes(static_cast<std::size_t>(k), static_cast<std::size_t>(count));
-        if (answers) {
-            const Answers a = answers_of(grid, ground, open, answers, vertex, side);
-            pack_answered(a, ray, answered);
-            open = hn::AndNot(a.known, open);
+    const int corner = upper ? 1 : 0, step = upper ? -1 : 1;
+    const float* at = grid.middle +
+                      static_cast<std::ptrdiff_t>(row.j + corner - grid.middle_y) * grid.pitch +
+                      (row.i + corner - grid.middle_x);
+    const std::uint8_t* bytes =
+        known.cells ? known.cells + static_cast<std::ptrdiff_t>(row.j) * known.pitch + row.i
+                    : nullptr;
+    const std::uint8_t bit = upper ? CountedFacets::kUpper : CountedFacets::kLower;
+    const hn::Rebind<std::uint8_t, IntTag> byte;
+    for (int k = 0; k < row.count; k += static_cast<int>(kLanes)) {
+        Mask open = first_lanes(static_cast<std::size_t>(k), static_cast<std::size_t>(row.count));
+        if (bytes) {
+            const Ints facets = hn::PromoteTo(kInt, hn::LoadU(byte, bytes + k));
+            const Mask sure =
+                hn::And(open, hn::RebindMask(kFloat, hn::TestBit(facets, all(std::int32_t{bit}))));
+            counted += hn::CountTrue(kFloat, sure);
+            open = hn::AndNot(sure, open);
             if (hn::AllFalse(kFloat, open)) continue;
         }
-        const Floats height = ground.height(vertex);
+        const Ints lane = hn::Iota(kInt, k);
+        const Ints x = hn::Add(lane, all(row.i + corner - grid.middle_x));
+        const Ints vertex = ground.wrap(
+            hn::Or(hn::And(x, all(0xffff)), all(pack_vertex(0, row.j + corner - grid.middle_y))));
+        const Floats height = hn::LoadU(kFloat, at + k);
         const Packer pack(open);
         pack(vertex, points.corner, points.count);
-        pack(side, points.side, points.count);
+        pack(all(upper ? -1.0f : 1.0f), points.side, points.count);
         pack(all(upper ? 1 - u : u), points.u, points.count);
         pack(all(upper ? 1 - v : v), points.v, points.count);
         pack(height, points.height, points.count);
-        pack(hn::Sub(ground.height(plus(vertex, corner_u(side))), height), points.rise_u,
-             points.count);
-        pack(hn::Sub(ground.height(plus(vertex, corner_v(side))), height), points.rise_v,
-             points.count);
-        pack(ray, points.ray, points.count);
+        pack(hn::Sub(hn::LoadU(kFloat, at + k + step), height), points.rise_u, points.count);
+        pack(hn::Sub(hn::LoadU(kFloat, at + k + step * std::ptrdiff_t{grid.pitch}), height),
+             points.rise_v, points.count);
+        pack(hn::Add(lane, all(row.first)), points.path, points.count);
         points.count += pack.count;
     }
 }

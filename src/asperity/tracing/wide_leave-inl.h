@@ -21,11 +21,6 @@ HWY_INLINE Ints cell_of(Ints corner, Floats side) {
     return minus(corner, hn::And(all(pack_vertex(1, 1)), upper));
 }
 
-/// Distance of A from the line, so that A lies left of it and B, w_ab further right, right of it.
-HWY_INLINE Floats clamp_between(Floats w, Floats w_ab) {
-    return hn::Min(hn::Max(w, hn::Zero(kFloat)), hn::Mul(w_ab, all(-0.9999999f)));
-}
-
 HWY_INLINE Floats height_at(Floats height, Floats rise_u, Floats rise_v, Floats u, Floats v) {
     return hn::Add(height, hn::Add(hn::Mul(rise_u, u), hn::Mul(rise_v, v)));
 }
@@ -80,7 +75,6 @@ void part_free_on(const GroundT& ground, FacetPoints& points, Directions& direct
         pack(y, directions.y, kept);
         pack(z, directions.z, kept);
         pack(level, directions.level, kept);
-        pack(sector, directions.sector, kept);
         pack(path, directions.path, kept);
         kept += pack.count;
     }
@@ -91,109 +85,96 @@ void PartFree(const WideGrid& grid, FacetPoints& points, Directions& directions,
                         HWY_ATTR { part_free_on(ground, points, directions, escapes); });
 }
 
-/// The two steps from a rhombus to the next: as vertices, across the line and in height.
-///
-/// With du >= 0 the edges a path crosses every second time are the diagonals (dv >= 0), the x lines
-/// (-du <= dv < 0) or the y lines (dv < -du). Two of them and what lies between are a rhombus; the
-/// next edge of the kind lies one of two steps ahead, step_x or step_y.
-struct Steps {
-    Mask by_diagonals, by_rows;
-    Ints step_x, step_y;
-    Floats w_x, w_y, z_x, z_y;
+/// How a path sees the cells it crosses, by the quadrant of its direction: it comes from the near
+/// corner, with a corner to its left and one to its right, and goes to the far one. In quadrants 1
+/// and 3 the diagonal runs across, from left to right; in 2 and 4 it runs along, from near to far.
+struct View {
+    Mask flip_x, flip_y;  ///< the path runs towards smaller x, y
+    Mask along;
+
+    HWY_INLINE View(Mask to_small_x, Mask to_small_y)
+        : flip_x(to_small_x), flip_y(to_small_y), along(hn::Xor(to_small_x, to_small_y)) {}
+
+    /// The left corner as seen from (0, 0).
+    HWY_INLINE Ints left_corner() const {
+        return hn::Or(only(flip_y, all(pack_vertex(1, 0))),
+                      hn::IfThenZeroElse(hn::RebindMask(kInt, flip_x), all(pack_vertex(0, 1))));
+    }
+    /// From cell to cell, over the edge on the right or on the left.
+    HWY_INLINE Ints step_r() const { return select(along, step_y(), step_x()); }
+    HWY_INLINE Ints step_l() const { return select(along, step_x(), step_y()); }
+
+  private:
+    HWY_INLINE Ints step_x() const {
+        return select(flip_x, all(pack_vertex(-1, 0)), all(pack_vertex(1, 0)));
+    }
+    HWY_INLINE Ints step_y() const {
+        return select(flip_y, all(pack_vertex(0, -1)), all(pack_vertex(0, 1)));
+    }
 };
-HWY_INLINE Steps steps_of(const Line& line) {
-    const Ints v10 = all(pack_vertex(1, 0)), v01 = all(pack_vertex(0, 1)),
-               v1m = all(pack_vertex(1, -1)), v0m = all(pack_vertex(0, -1));
-    const Floats du = line.du, dv = line.dv, k_x = line.k_x, k_y = line.k_y;
-    const Floats sum = hn::Add(du, dv), k_diff = hn::Sub(k_x, k_y), zero = hn::Zero(kFloat);
-    Steps s;
-    const Mask diagonals = s.by_diagonals = hn::Ge(dv, zero);
-    const Mask rows = s.by_rows = hn::AndNot(diagonals, hn::Lt(sum, zero));
-    s.step_x = select(diagonals, v10, select(rows, v0m, v1m));
-    s.step_y = select(diagonals, v01, select(rows, v1m, v10));
-    s.w_x = hn::Neg(select(diagonals, dv, select(rows, du, sum)));
-    s.w_y = select(diagonals, du, select(rows, hn::Neg(sum), hn::Neg(dv)));
-    s.z_x = select(diagonals, k_x, select(rows, hn::Neg(k_y), k_diff));
-    s.z_y = select(diagonals, k_y, select(rows, k_diff, k_x));
-    return s;
+
+/// Distance of the left corner from the line of a path, so that it lies left of it and the right
+/// corner, `across` further, right of it.
+HWY_INLINE Floats clamp_between(Floats w, Floats across) {
+    return hn::Min(hn::Max(w, hn::Zero(kFloat)), hn::Mul(across, all(0.9999999f)));
 }
 
-/// Vertex A of the first rhombus, left of the path; B = A + step_x - step_y lies right of it. In
-/// the cell of the facet, as a vertex and in numbers; `lower`: the facet is the lower one.
-struct FirstVertex {
-    Ints in_cell;
-    Floats u, v;
-};
-HWY_INLINE FirstVertex first_vertex(const Steps& s, Mask lower) {
-    const Floats one = all(1.0f);
-    const Ints v10 = all(pack_vertex(1, 0)), v01 = all(pack_vertex(0, 1)),
-               v11 = all(pack_vertex(1, 1));
-    return {
-        select(lower, select(s.by_rows, v10, v01), select(s.by_diagonals, v01, v11)),
-        select(lower, hn::IfThenElseZero(s.by_rows, one), hn::IfThenZeroElse(s.by_diagonals, one)),
-        hn::IfThenZeroElse(hn::And(lower, s.by_rows), one)};
-}
-
-/// Sets every path onto its strip of rhombi. Paths start on their facets, or over them at the
-/// heights `start_height`. The picture is turned by half a turn where du < 0.
+/// Sets every path on its way. Paths start on their facets, or over them at the heights
+/// `start_height`.
 template <class GroundT>
-void set_out_on(const GroundT& ground, const FacetPoints& points, const Directions& directions,
+void set_out_on(const GroundT& ground, const FacetPoints& points, Directions& directions,
                 const PerPath<float>* start_height, Walkers& walkers) {
     const Floats zero = hn::Zero(kFloat), one = all(1.0f);
-    const Ints v11 = all(pack_vertex(1, 1)), nothing = hn::Zero(kInt);
     for (std::size_t k = 0; k < points.count; k += kLanes) {
-        const Floats side = load(points.side, k);
-        const Floats h_o = load(points.height, k);
-        const Floats rise_u = load(points.rise_u, k), rise_v = load(points.rise_v, k);
-        const Floats u_o = load(points.u, k), v_o = load(points.v, k);
+        const Floats side = load(points.side, k), u = load(points.u, k), v = load(points.v, k);
         const Floats x = load(directions.x, k), y = load(directions.y, k),
                      z = load(directions.z, k);
-        const Floats here =
-            start_height ? load(*start_height, k) : height_at(h_o, rise_u, rise_v, u_o, v_o);
+        hn::StoreInterleaved4(x, y, z, hn::BitCast(kFloat, load(directions.path, k)), kFloat,
+                              &directions.headings.values[k].x);
+        const Floats here = start_height ? load(*start_height, k)
+                                         : height_at(load(points.height, k), load(points.rise_u, k),
+                                                     load(points.rise_v, k), u, v);
 
-        // Turn the picture so that du >= 0
-        const Line given = line_of(ground, x, y, z);
-        const Mask turned = hn::Lt(given.du, zero);
-        const Floats turn = select(turned, all(-1.0f), one);
-        const Line line{hn::Mul(turn, given.du), hn::Mul(turn, given.dv), hn::Mul(turn, given.k_x),
-                        hn::Mul(turn, given.k_y)};
-        const Mask lower = hn::Gt(hn::Mul(turn, side), zero);
-        const Floats u = select(lower, u_o, hn::Sub(one, u_o));
-        const Floats v = select(lower, v_o, hn::Sub(one, v_o));
+        // Cells and height per length of path, and how far from the near corner it starts; straight
+        // up is taken for a hair off
+        const Floats level = load(directions.level, k);
+        const Line line = line_of(ground, select(hn::Gt(level, zero), x, all(1e-12f)), y, z);
+        const View view(hn::Lt(x, zero), hn::Lt(y, zero));
+        const Mask upper = negative(side);
+        const Floats p = select(hn::Xor(upper, view.flip_x), hn::Sub(one, u), u);
+        const Floats q = select(hn::Xor(upper, view.flip_y), hn::Sub(one, v), v);
+        const Floats du = hn::Abs(line.du), dv = hn::Abs(line.dv);
+        const Floats rate = line.rate;
+        const Floats w_l = select(view.along, dv, du), w_r = hn::Neg(select(view.along, du, dv));
+        const Floats z_l = hn::Mul(hn::Neg(w_r), rate), z_r = hn::Mul(w_l, rate);
+        const Floats along_r = select(view.along, q, p), along_l = select(view.along, p, q);
+        const auto at_left = [&](Floats l, Floats r) HWY_ATTR {
+            return hn::Sub(hn::Mul(hn::Sub(one, along_l), l), hn::Mul(along_r, r));
+        };
+        const Floats w = clamp_between(at_left(w_l, w_r), hn::Sub(w_l, w_r));
 
-        // Where A lies beside the path, and how high the surface is at A and B
-        const Steps s = steps_of(line);
-        const FirstVertex a = first_vertex(s, lower);
-        const Floats a_u = hn::Sub(a.u, u), a_v = hn::Sub(a.v, v);
-        const Floats w = hn::Sub(hn::Mul(line.du, a_v), hn::Mul(line.dv, a_u));
-        const Floats z_a = hn::Add(here, hn::Add(hn::Mul(line.k_x, a_u), hn::Mul(line.k_y, a_v)));
-        const Floats h_x = hn::Add(h_o, rise_u), h_y = hn::Add(h_o, rise_v);
-        const Floats h_ahead = select(s.by_rows, h_x, h_y),
-                     h_back = select(s.by_diagonals, h_x, h_o);
-        const Ints cell = cell_of(load(points.corner, k), side);
-        const Mask second = hn::Xor(lower, hn::Or(s.by_diagonals, s.by_rows));
+        // On the second of the two facets? Only one is met if the diagonal is not crossed
+        const Mask on_left =
+            hn::Xor(upper, view.flip_x);  // or, where it runs across, on the far one
+        const Mask far_right = negative(hn::Add(w, w_r));
+        const Mask second = hn::Xor(on_left, hn::AndNot(far_right, view.along));
 
-        store(plus(cell, select(turned, minus(v11, a.in_cell), a.in_cell)), walkers.a, k);
-        store(select(turned, minus(nothing, s.step_x), s.step_x), walkers.step_x, k);
-        store(select(turned, minus(nothing, s.step_y), s.step_y), walkers.step_y, k);
-        store(clamp_between(w, hn::Sub(s.w_x, s.w_y)), walkers.w, k);
-        store(s.w_x, walkers.w_x, k);
-        store(s.w_y, walkers.w_y, k);
-        store(z_a, walkers.z, k);
-        store(s.z_x, walkers.z_x, k);
-        store(s.z_y, walkers.z_y, k);
-        store(hn::Sub(select(lower, h_ahead, h_back), z_a), walkers.g_a, k);
-        store(hn::Sub(select(lower, h_back, h_ahead), hn::Add(z_a, hn::Sub(s.z_x, s.z_y))),
-              walkers.g_b, k);
+        store(cell_of(load(points.corner, k), side), walkers.cell, k);
+        store(w, walkers.w, k);
+        store(w_l, walkers.w_l, k);
+        store(w_r, walkers.w_r, k);
+        store(hn::Add(here, at_left(z_l, z_r)), walkers.z, k);
+        store(z_l, walkers.z_l, k);
+        store(z_r, walkers.z_r, k);
         store(z, walkers.climb, k);
-        store(load(directions.level, k), walkers.level, k);
-        store(hn::IfThenElseZero(second, all(-0.0f)), walkers.spared, k);
-        store(load(directions.sector, k), walkers.sector, k);
+        store(level, walkers.level, k);
+        store(hn::IfThenElseZero(second, all(-0.0f)), walkers.passed, k);
+        store(sector_of(x, y), walkers.sector, k);
         store(hn::Iota(kInt, static_cast<std::int32_t>(k)), walkers.ray, k);
     }
     walkers.count = points.count;
 }
-void SetOut(const WideGrid& grid, const FacetPoints& points, const Directions& directions,
+void SetOut(const WideGrid& grid, const FacetPoints& points, Directions& directions,
             const PerPath<float>* start_height, Walkers& walkers) {
     on_ground(grid, [&](const auto& ground) HWY_ATTR {
         set_out_on(ground, points, directions, start_height, walkers);

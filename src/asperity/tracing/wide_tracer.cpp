@@ -28,8 +28,7 @@ WideTracer::WideTracer(const Heightfield& surface, Run& run)
       heights_(surface, run),
       horizon_(heights_, run),
       grid_(heights_, horizon_) {
-    if (heights_.periodic())
-        tops_.emplace(heights_, kLaunchGroup + LaunchLine::kReach, LaunchLine::kReach, run);
+    if (heights_.periodic()) tops_.emplace(heights_, run);
 }
 
 std::size_t WideTracer::memory_bytes() const {
@@ -37,29 +36,31 @@ std::size_t WideTracer::memory_bytes() const {
 }
 
 void WideTracer::clear(PathWave& wave) const {
-    wave.answered.count = wave.points.count = wave.escapes.count = wave.edge_count =
-        wave.stuck_count = 0;
-    wave.work_->hits.count = 0;
+    wave.points.count = wave.escapes.count = wave.edge_count = wave.stuck_count = wave.counted = 0;
+    wave.work_->parallel.count = 0;
 }
 
-void WideTracer::launch(LaunchLine& line, int i, int j, int count, int first, FacetAnswers answers,
+void WideTracer::launch(LaunchLine& line, const LaunchedRow& row, const CountedFacets& known,
                         PathWave& wave) const {
     LaunchHits& launched = wave.work_->launched;
-    TriangleHits& hits = wave.work_->hits;
     launched.count = 0;
-    launch_side_by_side({&grid_, &heights_, &*tops_}, line, i, j, count, first, launched);
-    if (answers) part_answered(grid_, line, answers, launched, wave.answered);
-    identify_launched(launched, line, hits);
+    launch_side_by_side({&grid_, &heights_, &*tops_}, line, row, known, launched, wave.counted);
+    sort_launched(grid_, line, launched, known, wave.work_->parallel, wave.counted);
 }
 
-void WideTracer::launch_down(double u, double v, int i, int j, int count, int first,
-                             FacetAnswers answers, PathWave& wave) const {
-    launch_straight_down(grid_, static_cast<float>(u), static_cast<float>(v), i, j, count, first,
-                         answers, wave.points, wave.answered);
+void WideTracer::launch_down(double u, double v, const LaunchedRow& row, const CountedFacets& known,
+                             PathWave& wave) const {
+    launch_straight_down(grid_, static_cast<float>(u), static_cast<float>(v), row, known,
+                         wave.points, wave.counted);
 }
 
-void WideTracer::land(PathWave& wave) const {
-    if (wave.work_->hits.count > 0) asperity::land(grid_, wave.work_->hits, wave.points);
+std::size_t WideTracer::launched(const PathWave& wave) const {
+    return wave.points.count + wave.work_->parallel.count;
+}
+
+void WideTracer::land(const Vec3& direction, PathWave& wave) const {
+    if (wave.work_->parallel.count > 0)
+        land_parallel(grid_, wave.work_->parallel, direction, wave.points);
 }
 
 void WideTracer::place(const Ray& ray, std::size_t k, PathWave& wave) const {
@@ -78,7 +79,6 @@ void WideTracer::place(const Ray& ray, std::size_t k, PathWave& wave) const {
     p.height[k] = heights_.at(x, y);
     p.rise_u[k] = heights_.at(x + step, y) - p.height[k];
     p.rise_v[k] = heights_.at(x, y + step) - p.height[k];
-    p.ray[k] = static_cast<std::int32_t>(k);
     wave.work_->start_height[k] = static_cast<float>(ray.z);
 }
 
@@ -88,7 +88,6 @@ void WideTracer::set_direction(Directions& to, std::size_t k, Vec3 d, std::int32
     to.y[k] = y;
     to.z[k] = static_cast<float>(d.z);
     to.level[k] = std::sqrt(x * x + y * y);
-    to.sector[k] = Horizon::sector_of(x, y);
     to.path[k] = path;
 }
 
@@ -109,7 +108,16 @@ void WideTracer::fall(PathWave& wave) const {
     const std::size_t count = wave.points.count;
     bool straight = true;
     for (std::size_t k = 0; k < count; ++k) straight = straight && !(d.level[k] > 0);
-    if (straight) return;
+    if (straight) {
+        FacetPoints& p = wave.points;
+        for (std::size_t k = 0; k < count; ++k) {
+            p.x[k] = d.x[k];
+            p.y[k] = d.y[k];
+            p.z[k] = d.z[k];
+            p.path[k] = d.path[k];
+        }
+        return;
+    }
     for (std::size_t k = 0; k < count; ++k)
         if (!(d.level[k] > 0)) d.x[k] = d.level[k] = kAlmostStraight;
     set_out(grid_, wave.points, d, &wave.work_->start_height, wave.work_->walkers);
@@ -119,30 +127,23 @@ void WideTracer::fall(PathWave& wave) const {
 void WideTracer::leave(PathWave& wave) const {
     wave.escapes.count = wave.edge_count = wave.stuck_count = 0;
     wave.turn();
-    part_free(grid_, wave.points, wave.arriving(), wave.escapes);
+    // Where few are free, the first look around is soon enough
+    if (grid_.horizon_pays) part_free(grid_, wave.points, wave.arriving(), wave.escapes);
     set_out(grid_, wave.points, wave.arriving(), nullptr, wave.work_->walkers);
     walk(wave, false);
 }
 
-void WideTracer::part(PathWave& wave) const {
-    wave.escapes.count = 0;
-    wave.turn();
-    part_free(grid_, wave.points, wave.arriving(), wave.escapes);
-    wave.points.count = 0;
-}
-
 void WideTracer::walk(PathWave& wave, bool from_above) const {
-    constexpr int kMostRounds = Tracer::kMaxCrossings / (2 * kRhombiPerRound);
+    constexpr int kMostRounds = Tracer::kMaxCrossings / (2 * kCellsPerRound);
     PathWaveWork& work = *wave.work_;
-    work.raw.count = work.leavers.count = work.hits.count = 0;
+    work.raw.count = work.leavers.count = 0;
     asperity::walk(grid_, from_above, kMostRounds, work.walkers, work.raw, work.leavers);
     for (std::size_t k = 0; k < work.walkers.count; ++k)
         wave.stuck[wave.stuck_count++] =
             wave.arriving().path[static_cast<std::size_t>(work.walkers.ray[k])];
     release(work.leavers, wave.arriving(), !heights_.periodic(), wave.escapes);
     if (!heights_.periodic()) settle_edges(wave);
-    identify(grid_, work.raw, wave.arriving(), work.hits);
-    asperity::land(grid_, work.hits, wave.points);
+    asperity::land(grid_, work.raw, wave.arriving(), wave.points);
 }
 
 void WideTracer::settle_edges(PathWave& wave) const {
@@ -219,8 +220,7 @@ void WideTracer::trace_some(std::span<const std::size_t> chosen, bool on_facet, 
     for (std::size_t k = 0; k < wave.edge_count; ++k) mark(wave.edge[k], RayEnd::Edge);
     for (std::size_t k = 0; k < wave.stuck_count; ++k) mark(wave.stuck[k], RayEnd::Stuck);
     for (std::size_t k = 0; k < wave.points.count; ++k) {
-        const auto path = wave.arriving().path[static_cast<std::size_t>(wave.points.ray[k])];
-        const std::size_t ray = chosen[static_cast<std::size_t>(path)];
+        const std::size_t ray = chosen[static_cast<std::size_t>(wave.points.path[k])];
         ends[ray] = RayEnd::Hit;
         stand(wave.points, k, rays[ray]);
     }

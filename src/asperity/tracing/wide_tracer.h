@@ -29,11 +29,11 @@ class PathWave {
     PathWave(PathWave&&) noexcept;
     PathWave& operator=(PathWave&&) noexcept;
 
-    /// The directions the paths at `points` came with, and after a reflection go on with.
+    /// The directions paths came with, and those the paths at `points` go on with.
     Directions& arriving() { return directions_[turn_]; }
     Directions& leaving() { return directions_[1 - turn_]; }
-    AnsweredRays answered;        ///< launched rays whose facets had an answer
-    FacetPoints points;           ///< paths that have met a facet; ray: index into arriving
+    std::size_t counted = 0;      ///< launched rays onto facets that are only counted
+    FacetPoints points;           ///< paths that have met a facet
     Escapes escapes;              ///< paths that are free, by direction
     std::size_t edge_count = 0;   ///< paths lost through the side of a finite patch,
     PerPath<std::int32_t> edge;   ///< by Directions::path
@@ -72,31 +72,31 @@ class WideTracer {
     int cells_x() const { return heights_.cells_x(); }
     int cells_y() const { return heights_.cells_y(); }
     const PaddedHeights& heights() const { return heights_; }
+    /// The surface as the kernels see it.
+    const WideGrid& grid() const { return grid_; }
     std::size_t memory_bytes() const;
 
     /// Forgets all paths of the wave.
     void clear(PathWave& wave) const;
-    /// Launches `count` rays along the line from the cells (i, j), (i + 1, j) ... and moves them to
-    /// their first facets: wave.points, ray `first + k` for the k-th. Periodic surfaces only; i, j
-    /// inside; the wave holds at most kWave rays.
-    /// Rays onto facets with an answer go to wave.answered; `answers` may be null.
-    void launch(LaunchLine& line, int i, int j, int count, int first, FacetAnswers answers,
+    /// Launches rays along the line from the cells (i, j), (i + 1, j) ... of a row and moves them
+    /// to their first facets: wave.points after land(), ray `first + k` for the k-th. Periodic
+    /// surfaces only; i, j inside. Rays onto facets that are only counted go to wave.counted
+    /// instead.
+    void launch(LaunchLine& line, const LaunchedRow& row, const CountedFacets& known,
                 PathWave& wave) const;
     /// The same for rays straight down onto the place (u, v) of the cells.
-    void launch_down(double u, double v, int i, int j, int count, int first, FacetAnswers answers,
+    void launch_down(double u, double v, const LaunchedRow& row, const CountedFacets& known,
                      PathWave& wave) const;
-    /// Finishes a launch: the rays stand at wave.points.
-    void land(PathWave& wave) const;
+    /// Rays launched since the wave was cleared, but for those counted; at most kWave may be.
+    std::size_t launched(const PathWave& wave) const;
+    /// Finishes a launch along `direction`, which is that of the lines.
+    void land(const Vec3& direction, PathWave& wave) const;
     /// Moves rays from free space, at most kWave, to their first facets; path k is ray k.
     void enter(std::span<const Ray> rays, PathWave& wave) const;
     /// Moves the paths at wave.points along wave.leaving() to their next facets, wave.points again,
     /// or out; these directions become the arriving ones. The lists of those that ended are made
     /// anew.
     void leave(PathWave& wave) const;
-
-    /// Of the paths at wave.points along wave.leaving(), finds those that are free for certain by
-    /// the facet they leave, wherever on it they start: wave.escapes. Forgets the others.
-    void part(PathWave& wave) const;
 
     /// Advances each ray to its next facet or out, as Tracer::trace; for tests and single rays.
     void trace(std::span<Ray> rays, std::span<RayEnd> ends) const;

@@ -40,18 +40,18 @@ void follow_row(const Heightfield& s, const Vec3& d, double u, double v, int i, 
     PathWave wave;
     wide.clear(wave);
     if (d.x == 0 && d.y == 0) {
-        wide.launch_down(u, v, i, j, kCount, 0, nullptr, wave);
+        wide.launch_down(u, v, {i, j, kCount, 0}, {}, wave);
     } else {
         LaunchLine line;
         line.start(wide.heights(), u, v, double{wide.max_height()}, d);
-        wide.launch(line, i, j, kCount, 0, nullptr, wave);
+        wide.launch(line, {i, j, kCount, 0}, {}, wave);
     }
-    wide.land(wave);
+    wide.land(d, wave);
     ASSERT_EQ(wave.points.count, kCount);
     int differing = 0;
     for (std::size_t k = 0; k < kCount; ++k) {
         Ray ray;
-        ray.i = (i + wave.points.ray[k]) % s.nx;
+        ray.i = (i + wave.points.path[k]) % s.nx;
         ray.j = j;
         ray.u = u;
         ray.v = v;

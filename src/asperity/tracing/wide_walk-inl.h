@@ -2,13 +2,13 @@
 //
 // The walk from facet to facet, the heart of the program. docs/performance.md, "The walk".
 //
-// A path goes along a strip of rhombi, two triangles each, that hang together by edges (A, B): A
-// left of the path, B = A + step_x - step_y right of it. C = A + step_x = B + step_y is the vertex
-// opposite. The path crosses the rhombus' second triangle A, B, C and leaves it through the side
-// edge (A, C) or (C, B); then the first triangle of the next rhombus, A' - step_y, A', B', through
-// (A', B'). With w the distance of a vertex from the path's line and g the height of the surface
-// over the path there, the surface under the path at an edge (L, R) rises above it just when
-// g_L w_R - g_R w_L < 0, as w_L >= 0 > w_R. No division, no epsilon, every edge once.
+// A path goes from cell to cell. It sees of each the near and the far corner, one on its left and
+// one on its right (View), whose heights come with one load. With w the distance of a corner from
+// the path's line, positive on the left, and g the height of the surface over the path there, the
+// surface under the path at an edge (L, R) rises above it just when g_L w_R - g_R w_L < 0, as
+// w_L >= 0 > w_R. Two edges of a cell are tested, in the order the path crosses them: the diagonal,
+// if it is crossed, and the one that leads out, over which the path goes on. No division, no
+// epsilon, every edge once.
 
 #if defined(ASPERITY_WIDE_WALK_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ASPERITY_WIDE_WALK_INL_H
@@ -22,175 +22,151 @@
 HWY_BEFORE_NAMESPACE();
 namespace asperity::HWY_NAMESPACE {
 
-/// Paths in the lanes of a vector, at the edge (A, B) of their strip.
-struct Strip {
-    Ints a, step_x, step_y, step_ab;
-    Floats w_a, w_b, w_x, w_y, w_ab;
-    Floats z_a, z_x, z_y, z_ab;
-    Floats g_a, g_b;
-    Floats above;  ///< g_a w_b - g_b w_a: clearance times w_a - w_b
+/// Paths in the lanes of a vector, in their cells.
+struct Way {
+    Ints cell;
+    Floats w;                       ///< distance of the left corner from the path's line
+    Floats z;                       ///< height of the path beside that corner
+    const Floats w_l, w_r, across;  ///< change of w to the left, to the right, from left to right
+    const Floats z_l, z_r;
+    const View view;
+    const Ints step_l, step_r;
+    // Of the edge over which the path came in
+    Floats above;     ///< clearance times the distance of its two ends
+    Mask from_right;  ///< it was the one on the right of the cell before
 
-    HWY_INLINE Strip(const Walkers& from, std::size_t k, Mask valid)
-        : a(only(valid, load(from.a, k))),
-          step_x(only(valid, load(from.step_x, k))),
-          step_y(only(valid, load(from.step_y, k))),
-          step_ab(minus(step_x, step_y)),
-          w_a(load(from.w, k)),
-          w_x(load(from.w_x, k)),
-          w_y(load(from.w_y, k)),
-          w_ab(hn::Sub(w_x, w_y)),
-          z_a(load(from.z, k)),
-          z_x(load(from.z_x, k)),
-          z_y(load(from.z_y, k)),
-          z_ab(hn::Sub(z_x, z_y)),
-          g_a(load(from.g_a, k)),
-          g_b(load(from.g_b, k)) {
-        w_b = hn::Add(w_a, w_ab);
-        above = at_edge(g_a, w_a, g_b, w_b);
-    }
+    HWY_INLINE Way(const Walkers& from, std::size_t k, Mask valid, Ints sector)
+        : cell(only(valid, load(from.cell, k))),
+          w(load(from.w, k)),
+          z(load(from.z, k)),
+          w_l(load(from.w_l, k)),
+          w_r(load(from.w_r, k)),
+          across(hn::Sub(w_l, w_r)),
+          z_l(load(from.z_l, k)),
+          z_r(load(from.z_r, k)),
+          view(has_bit(sector, 1), has_bit(sector, 2)),
+          step_l(view.step_l()),
+          step_r(view.step_r()),
+          above(hn::Zero(kFloat)),
+          from_right(valid) {}
 
-    HWY_INLINE static Floats at_edge(Floats g_l, Floats w_l, Floats g_r, Floats w_r) {
-        return hn::Sub(hn::Mul(g_l, w_r), hn::Mul(g_r, w_l));
+  private:
+    HWY_INLINE static Mask has_bit(Ints sector, std::int32_t bit) {
+        return hn::RebindMask(kFloat, hn::TestBit(sector, all(bit)));
     }
 };
 
-/// The first hit of each lane: negative `hit` says there was one, in the second triangle of the
-/// rhombus at `a` if `in_second` is negative, else in the first.
+/// One value at each corner of a cell, as the path sees them.
+struct Corners {
+    Floats near, right, far, left;
+
+    /// Turns the cell by a quarter (along) and by half a turn (flip_y).
+    HWY_INLINE Corners(const CellHeights& h, const View& view) {
+        const Floats a = select(view.along, h.h10, h.h00), b = select(view.along, h.h11, h.h10),
+                     c = select(view.along, h.h01, h.h11), d = select(view.along, h.h00, h.h01);
+        near = select(view.flip_y, c, a);
+        right = select(view.flip_y, d, b);
+        far = select(view.flip_y, a, c);
+        left = select(view.flip_y, b, d);
+    }
+};
+
+/// The first hit of each lane: negative `hit` says there was one, on the first facet of the cell if
+/// `in_first` is negative, else on the second.
 struct FirstHit {
-    Floats hit;
-    Floats in_second;
-    Ints a;
+    Floats hit, in_first;
+    Ints cell;
 
-    HWY_INLINE void note(Floats above, Ints at) {
-        a = hn::BitCast(kInt, select_by_sign(hit, hn::BitCast(kFloat, a), hn::BitCast(kFloat, at)));
-        hit = hn::Or(hit, above);
-    }
-    HWY_INLINE void note_second(Floats above, Ints at) {
-        in_second = select_by_sign(hit, in_second, above);
-        note(above, at);
+    HWY_INLINE void note(Floats diagonal, Floats way_out, Ints at) {
+        in_first = select_by_sign(hit, in_first, diagonal);
+        cell = hn::BitCast(kInt,
+                           select_by_sign(hit, hn::BitCast(kFloat, cell), hn::BitCast(kFloat, at)));
+        hit = hn::Or(hit, hn::Or(diagonal, way_out));
     }
 };
 
-/// Goes to the same edge of the next rhombus, over two edges.
+/// Crosses a cell. `no_diagonal` and `no_way_out` are -0 where an edge is not to be tested.
 template <class GroundT>
-HWY_INLINE void step(const GroundT& ground, Strip& s, FirstHit& first, Floats spared) {
-    // C, and on which side of the path it lies
-    const Floats w_c = hn::Add(s.w_a, s.w_x);
-    const Floats g_c = hn::Sub(ground.height(plus(s.a, s.step_x)), hn::Add(s.z_a, s.z_x));
-    const Mask right = negative(w_c);
-    // Out of the second triangle: over (A, C) or (C, B)
-    const Floats side = Strip::at_edge(select(right, s.g_a, g_c), select(right, s.w_a, w_c),
-                                       select(right, g_c, s.g_b), select(right, w_c, s.w_b));
-    first.note_second(hn::AndNot(spared, side), s.a);
-    // Out of the first triangle of the next rhombus: over (A', B')
-    s.a = plus(s.a, select(right, s.step_y, s.step_x));
-    s.w_a = hn::Add(s.w_a, select(right, s.w_y, s.w_x));
-    s.z_a = hn::Add(s.z_a, select(right, s.z_y, s.z_x));
-    s.w_b = hn::Add(s.w_a, s.w_ab);
-    const Ints fresh =
-        plus(s.a, hn::AndNot(hn::BitCast(kInt, hn::VecFromMask(kFloat, right)), s.step_ab));
-    const Floats z_fresh = hn::Add(s.z_a, hn::IfThenZeroElse(right, s.z_ab));
-    const Floats g_fresh = hn::Sub(ground.height(fresh), z_fresh);
-    s.g_a = select(right, g_fresh, g_c);
-    s.g_b = select(right, g_c, g_fresh);
-    s.above = Strip::at_edge(s.g_a, s.w_a, s.g_b, s.w_b);
-    first.note(s.above, s.a);
+HWY_INLINE void cross_cell(const GroundT& ground, Way& way, FirstHit& first, Floats no_diagonal,
+                           Floats no_way_out) {
+    const auto rises = [](Floats g_l, Floats w_l, Floats g_r, Floats w_r)
+                           HWY_ATTR { return hn::Sub(hn::Mul(g_l, w_r), hn::Mul(g_r, w_l)); };
+    const Corners h(ground.corners(way.cell), way.view);
+    const Floats w_near = hn::Sub(way.w, way.w_l), w_right = hn::Sub(way.w, way.across),
+                 w_far = hn::Add(way.w, way.w_r);
+    const Floats z_near = hn::Sub(way.z, way.z_l);
+    const Floats g_near = hn::Sub(h.near, z_near), g_left = hn::Sub(h.left, way.z),
+                 g_right = hn::Sub(h.right, hn::Add(z_near, way.z_r)),
+                 g_far = hn::Sub(h.far, hn::Add(way.z, way.z_r));
+
+    // The diagonal: from left to right, or from near to far if these lie on both sides
+    const Mask along = way.view.along;
+    const Floats w_p = select(along, w_near, way.w), w_q = select(along, w_far, w_right);
+    const Floats risen =
+        rises(select(along, g_near, g_left), w_p, select(along, g_far, g_right), w_q);
+    const Floats diagonal = hn::And(hn::Xor(risen, w_p), hn::Xor(w_p, w_q));
+
+    // Out on the left of the far corner, or on the right
+    const Mask on_left = negative(w_far);
+    way.above = rises(select(on_left, g_left, g_far), select(on_left, way.w, w_far),
+                      select(on_left, g_far, g_right), select(on_left, w_far, w_right));
+    first.note(hn::AndNot(no_diagonal, diagonal), hn::AndNot(no_way_out, way.above), way.cell);
+    way.cell = plus(way.cell, select(on_left, way.step_l, way.step_r));
+    way.w = hn::Add(way.w, select(on_left, way.w_l, way.w_r));
+    way.z = hn::Add(way.z, select(on_left, way.z_l, way.z_r));
+    way.from_right = hn::Not(on_left);
 }
 
-/// Leaps ahead over as many rhombi as the horizon of the cell below allows, where that is worth
-/// it. `rise` is what the horizon may climb per length of path. Returns the lanes that leapt.
-template <class GroundT>
-HWY_INLINE Mask leap(const GroundT& ground, Strip& s, Mask may, Floats rise, Floats climb,
-                     Floats per_w) {
-    const Floats one = all(1.0f);
-    // Length of path on which the clearance is used up, short of rounding
-    const Floats clearance = hn::Mul(s.above, per_w);
-    const Floats closing = hn::Max(hn::Sub(rise, climb), all(1e-9f));
-    const Floats length = hn::Min(hn::Mul(all(0.999f), hn::Div(clearance, closing)), all(1e9f));
-    // In rhombi: the path runs along w_y step_x - w_x step_y
-    Floats along_x = hn::Mul(s.w_y, length), along_y = hn::Mul(hn::Neg(s.w_x), length);
-    const Floats rhombi = hn::Add(along_x, along_y);
-    constexpr float kWorthwhile = 4;
-    const Mask far = hn::And(may, hn::Gt(rhombi, all(kWorthwhile)));
-    if (hn::AllFalse(kFloat, far)) return far;
-
-    const Floats shorter = hn::Min(one, hn::Div(ground.longest_leap, rhombi));
-    along_x = hn::Mul(along_x, shorter);
-    along_y = hn::Mul(along_y, shorter);
-    const Floats beside_a = hn::Mul(s.w_a, per_w);
-    const Floats n_x = hn::IfThenElseZero(far, hn::Floor(hn::Add(beside_a, along_x)));
-    const Floats n_y = hn::IfThenElseZero(far, hn::Floor(hn::Add(hn::Sub(one, beside_a), along_y)));
-    const Ints there = plus(s.a, plus(times(hn::ConvertTo(kInt, n_x), s.step_x),
-                                      times(hn::ConvertTo(kInt, n_y), s.step_y)));
-    const Ints a = only(far, ground.periodic ? ground.wrap(there) : there);
-    const Floats w = hn::Add(s.w_a, hn::Add(hn::Mul(n_x, s.w_x), hn::Mul(n_y, s.w_y)));
-    const Floats z = hn::Add(s.z_a, hn::Add(hn::Mul(n_x, s.z_x), hn::Mul(n_y, s.z_y)));
-    s.a = select(far, a, s.a);
-    s.w_a = select(far, clamp_between(w, s.w_ab), s.w_a);
-    s.w_b = hn::Add(s.w_a, s.w_ab);
-    s.z_a = select(far, z, s.z_a);
-    s.g_a = select(far, hn::Sub(ground.height(a), z), s.g_a);
-    s.g_b = select(far, hn::Sub(ground.height(plus(a, s.step_ab)), hn::Add(z, s.z_ab)), s.g_b);
-    s.above = select(far, Strip::at_edge(s.g_a, s.w_a, s.g_b, s.w_b), s.above);
-    return far;
-}
-
-/// What paths carry along beside their place on the strip.
+/// What paths carry along beside their place.
 struct Bound {
     Floats climb, level;
     Ints sector, ray;
 };
 
-/// A triangle that was hit, the second of the rhombus at `a` or the first, and the line of the path
-/// beside a vertex.
-struct Fall {
-    Ints a;
-    Floats in_second;
-    Ints beside;
-    Floats w, z;
-};
-
-/// Appends the lanes that have hit.
-HWY_INLINE void pack_hits(Mask hit, const Strip& s, const Fall& fall, Ints ray, RawHits& hits) {
+/// Appends the lanes that have hit; they began the round in the cell `from`, with `w` and `z`.
+HWY_INLINE void pack_hits(Mask hit, const FirstHit& first, Ints from, Floats w, Floats z, Ints ray,
+                          RawHits& hits) {
     if (hn::AllFalse(kFloat, hit)) return;
     const Packer pack(hit);
-    pack(fall.a, hits.a, hits.count);
-    pack(s.step_x, hits.step_x, hits.count);
-    pack(s.step_y, hits.step_y, hits.count);
-    pack(fall.beside, hits.beside, hits.count);
-    pack(fall.in_second, hits.in_second, hits.count);
-    pack(fall.w, hits.w, hits.count);
-    pack(fall.z, hits.z, hits.count);
+    pack(first.cell, hits.cell, hits.count);
+    pack(first.in_first, hits.in_first, hits.count);
+    pack(from, hits.from_cell, hits.count);
+    pack(w, hits.w, hits.count);
+    pack(z, hits.z, hits.count);
     pack(ray, hits.ray, hits.count);
     hits.count += pack.count;
 }
 
-/// What paths see when they look around: which are out, above everything or beyond the horizon.
+/// Where a path has come into its cell, and what it sees from there.
 struct Outlook {
-    Mask out;
-    Floats rise;      ///< the surface ahead rises no more than this per length of path
-    Floats per_w;     ///< lengths of path, seen from above, per distance between A and B
-    Floats beside_a;  ///< of the way from A to B
-    Floats here;      ///< height of the path
+    Mask out;          ///< above everything or beyond the horizon
+    Floats r, l;       ///< from the near corner towards the right and the left one
+    Floats height;     ///< of the path
+    Floats clearance;  ///< above the surface
+    Floats rise;       ///< the surface ahead rises no more than this per length of path
 };
 
-/// Looks around, and brings the strip back to the first tile.
+/// Looks around, and brings the cell back to the first tile.
 template <class GroundT>
-HWY_INLINE Outlook look_around(const GroundT& ground, Strip& s, const Bound& bound, Mask valid,
+HWY_INLINE Outlook look_around(const GroundT& ground, Way& way, const Bound& bound, Mask valid,
                                Mask alive) {
+    const Floats zero = hn::Zero(kFloat);
     Outlook look;
-    look.per_w = hn::Div(all(1.0f), hn::Sub(s.w_a, s.w_b));
-    look.beside_a = hn::Mul(s.w_a, look.per_w);
-    look.here = hn::Add(s.z_a, hn::Mul(look.beside_a, s.z_ab));
-    Ints cell = smaller(s.a, plus(s.a, s.step_ab));
-    Mask out = hn::And(hn::Ge(bound.climb, hn::Zero(kFloat)), hn::Ge(look.here, ground.max_height));
+    const Floats per_w = hn::Div(all(1.0f), select(way.from_right, way.w_l, hn::Neg(way.w_r)));
+    const Floats aside = hn::Mul(hn::Abs(hn::Sub(way.w, way.w_l)), per_w);
+    look.r = select(way.from_right, zero, aside);
+    look.l = select(way.from_right, aside, zero);
+    look.height =
+        hn::Add(hn::Sub(way.z, way.z_l), hn::Mul(aside, select(way.from_right, way.z_l, way.z_r)));
+    look.clearance = hn::Mul(way.above, per_w);
+    Mask out = hn::And(hn::Ge(bound.climb, zero), hn::Ge(look.height, ground.max_height));
+    Ints cell = way.cell;
     if (ground.periodic) {
-        s.a = ground.wrap(s.a);
-        cell = ground.wrap(cell);
+        cell = way.cell = ground.wrap(way.cell);
     } else {
-        const Mask beyond = ground.outside(cell);
+        const Mask beyond = ground.outside(way.cell);
         out = hn::Or(out, beyond);
-        cell = only(hn::AndNot(beyond, valid), cell);
+        cell = only(hn::AndNot(beyond, valid), way.cell);
     }
     Floats slope = ground.steepest;
     if (ground.leaps_pay) slope = hn::Min(ground.horizon(only(alive, cell), bound.sector), slope);
@@ -199,41 +175,63 @@ HWY_INLINE Outlook look_around(const GroundT& ground, Strip& s, const Bound& bou
     return look;
 }
 
+/// Leaps ahead over as many cells as the horizon of the cell below allows, where that is worth it.
+template <class GroundT>
+HWY_INLINE void leap(const GroundT& ground, Way& way, const Outlook& look, Floats climb, Mask may) {
+    const Floats one = all(1.0f);
+    // Length of path on which the clearance is used up, short of rounding
+    const Floats closing = hn::Max(hn::Sub(look.rise, climb), all(1e-9f));
+    Floats length = hn::Min(hn::Mul(all(0.999f), hn::Div(look.clearance, closing)), all(1e9f));
+    const Floats cells = hn::Mul(length, way.across);
+    constexpr float kWorthwhile = 4;
+    const Mask far = hn::And(may, hn::Gt(cells, all(kWorthwhile)));
+    if (hn::AllFalse(kFloat, far)) return;
+    length = hn::Mul(length, hn::Min(one, hn::Div(ground.longest_leap, cells)));
+    const Floats n_r =
+        hn::IfThenElseZero(far, hn::Floor(hn::Add(look.r, hn::Mul(length, way.w_l))));
+    const Floats n_l =
+        hn::IfThenElseZero(far, hn::Floor(hn::Sub(look.l, hn::Mul(length, way.w_r))));
+    const Ints there = plus(way.cell, plus(times(hn::ConvertTo(kInt, n_r), way.step_r),
+                                           times(hn::ConvertTo(kInt, n_l), way.step_l)));
+    way.cell = select(far, ground.periodic ? ground.wrap(there) : there, way.cell);
+    const Floats w = hn::Add(way.w, hn::Add(hn::Mul(n_r, way.w_r), hn::Mul(n_l, way.w_l)));
+    way.w = select(far, clamp_between(w, way.across), way.w);
+    way.z = hn::Add(way.z, hn::Add(hn::Mul(n_r, way.z_r), hn::Mul(n_l, way.z_l)));
+    ground.fetch(way.cell, far, way.view.flip_y);
+}
+
 /// Appends the lanes that are out, and over finite patches where they are.
 template <class GroundT>
-HWY_INLINE void pack_leavers(const GroundT& ground, const Strip& s, const Outlook& look, Ints ray,
+HWY_INLINE void pack_leavers(const GroundT& ground, const Way& way, const Outlook& look, Ints ray,
                              Leavers& leavers) {
     if (hn::AllFalse(kFloat, look.out)) return;
     const Packer pack(look.out);
     pack(ray, leavers.ray, leavers.count);
     if (!ground.periodic) {
-        const Ints b = plus(s.a, s.step_ab);
-        const auto between = [&](Ints at_a, Ints at_b) HWY_ATTR {
-            return hn::Add(hn::ConvertTo(kFloat, at_a),
-                           hn::Mul(look.beside_a, hn::ConvertTo(kFloat, hn::Sub(at_b, at_a))));
+        const Floats x = select(way.view.along, look.l, look.r),
+                     y = select(way.view.along, look.r, look.l);
+        const auto place = [](Ints cell, Mask flip, Floats from_near) HWY_ATTR {
+            return hn::Add(hn::ConvertTo(kFloat, cell),
+                           select(flip, hn::Sub(all(1.0f), from_near), from_near));
         };
-        pack(between(x_of(s.a), x_of(b)), leavers.at_x, leavers.count);
-        pack(between(y_of(s.a), y_of(b)), leavers.at_y, leavers.count);
-        pack(look.here, leavers.at_z, leavers.count);
+        pack(place(x_of(way.cell), way.view.flip_x, x), leavers.at_x, leavers.count);
+        pack(place(y_of(way.cell), way.view.flip_y, y), leavers.at_y, leavers.count);
+        pack(look.height, leavers.at_z, leavers.count);
     }
     leavers.count += pack.count;
 }
 
 /// Writes the lanes that are still under way to `at`; returns how many.
-HWY_INLINE std::size_t pack_walkers(Mask going, const Strip& s, const Bound& bound,
+HWY_INLINE std::size_t pack_walkers(Mask going, const Way& way, const Bound& bound,
                                     Walkers& walkers, std::size_t at) {
     const Packer pack(going);
-    pack(s.a, walkers.a, at);
-    pack(s.step_x, walkers.step_x, at);
-    pack(s.step_y, walkers.step_y, at);
-    pack(s.w_a, walkers.w, at);
-    pack(s.w_x, walkers.w_x, at);
-    pack(s.w_y, walkers.w_y, at);
-    pack(s.z_a, walkers.z, at);
-    pack(s.z_x, walkers.z_x, at);
-    pack(s.z_y, walkers.z_y, at);
-    pack(s.g_a, walkers.g_a, at);
-    pack(s.g_b, walkers.g_b, at);
+    pack(way.cell, walkers.cell, at);
+    pack(way.w, walkers.w, at);
+    pack(way.w_l, walkers.w_l, at);
+    pack(way.w_r, walkers.w_r, at);
+    pack(way.z, walkers.z, at);
+    pack(way.z_l, walkers.z_l, at);
+    pack(way.z_r, walkers.z_r, at);
     pack(bound.climb, walkers.climb, at);
     pack(bound.level, walkers.level, at);
     pack(bound.sector, walkers.sector, at);
@@ -244,42 +242,41 @@ HWY_INLINE std::size_t pack_walkers(Mask going, const Strip& s, const Bound& bou
 /// Where a round begins.
 enum class Start { OnFacet, InTheAir, UnderWay };
 
-/// Takes every path `kSteps` rhombi further and leaves in `walkers`, side by side, those that are
+/// Takes every path `kSteps` cells further and leaves in `walkers`, side by side, those that are
 /// still under way.
 template <Start kStart, int kSteps, class GroundT>
 void walk_round(const GroundT& ground, Walkers& walkers, RawHits& hits, Leavers& leavers) {
-    const Floats zero = hn::Zero(kFloat);
+    const Floats zero = hn::Zero(kFloat), minus_zero = all(-0.0f);
     std::size_t kept = 0;
     for (std::size_t k = 0; k < walkers.count; k += kLanes) {
         const Mask valid = first_lanes(k, walkers.count);
-        Strip s(walkers, k, valid);
-        const Ints ray = only(valid, load(walkers.ray, k));
+        const Bound bound{load(walkers.climb, k), load(walkers.level, k),
+                          only(valid, load(walkers.sector, k)), only(valid, load(walkers.ray, k))};
+        Way way(walkers, k, valid, bound.sector);
 
-        // Walk, and remember the first triangle that was hit
-        const Ints a0 = s.a;
-        const Floats w0 = s.w_a, z0 = s.z_a;
-        FirstHit first{kStart == Start::InTheAir ? s.above : zero, zero, s.a};
-        step(ground, s, first, kStart == Start::OnFacet ? load(walkers.spared, k) : zero);
-        for (int n = 1; n < kSteps; ++n) step(ground, s, first, zero);
+        // Walk, and remember the first facet that was hit
+        const Ints from = way.cell;
+        const Floats w0 = way.w, z0 = way.z;
+        FirstHit first{zero, zero, way.cell};
+        if constexpr (kStart == Start::OnFacet)
+            cross_cell(ground, way, first, minus_zero, load(walkers.passed, k));
+        else if constexpr (kStart == Start::InTheAir)
+            cross_cell(ground, way, first, load(walkers.passed, k), zero);
+        else
+            cross_cell(ground, way, first, zero, zero);
+        for (int n = 1; n < kSteps; ++n) cross_cell(ground, way, first, zero, zero);
         const Mask hit = hn::And(valid, negative(first.hit));
-        pack_hits(hit, s, {first.a, first.in_second, a0, w0, z0}, ray, hits);
+        pack_hits(hit, first, from, w0, z0, bound.ray, hits);
 
         // Out?
         const Mask alive = hn::AndNot(hit, valid);
-        const Bound bound{load(walkers.climb, k), load(walkers.level, k),
-                          only(valid, load(walkers.sector, k)), ray};
-        const Outlook look = look_around(ground, s, bound, valid, alive);
-        pack_leavers(ground, s, look, ray, leavers);
+        const Outlook look = look_around(ground, way, bound, valid, alive);
+        pack_leavers(ground, way, look, bound.ray, leavers);
 
-        // Leap ahead; the edge landed at is tested like any other
-        Mask going = hn::AndNot(look.out, alive);
-        if (ground.leaps_pay) {
-            const Mask leapt = leap(ground, s, going, look.rise, bound.climb, look.per_w);
-            const Mask fell = hn::And(leapt, hn::Lt(s.above, zero));
-            pack_hits(fell, s, {s.a, zero, s.a, s.w_a, s.z_a}, ray, hits);
-            going = hn::AndNot(fell, going);
-        }
-        kept += pack_walkers(going, s, bound, walkers, kept);
+        // Leap ahead
+        const Mask going = hn::AndNot(look.out, alive);
+        if (ground.leaps_pay) leap(ground, way, look, bound.climb, going);
+        kept += pack_walkers(going, way, bound, walkers, kept);
     }
     walkers.count = kept;
 }
@@ -287,13 +284,12 @@ void walk_round(const GroundT& ground, Walkers& walkers, RawHits& hits, Leavers&
 template <class GroundT>
 void walk_on(const GroundT& ground, bool from_above, int most_rounds, Walkers& walkers,
              RawHits& hits, Leavers& leavers) {
-    // The first look around comes early: most paths end near their facet
     if (from_above)
-        walk_round<Start::InTheAir, kRhombiPerRound>(ground, walkers, hits, leavers);
+        walk_round<Start::InTheAir, kCellsPerRound>(ground, walkers, hits, leavers);
     else
-        walk_round<Start::OnFacet, kRhombiPerRound / 2>(ground, walkers, hits, leavers);
+        walk_round<Start::OnFacet, kCellsPerRound>(ground, walkers, hits, leavers);
     for (int round = 1; round < most_rounds && walkers.count > 0; ++round)
-        walk_round<Start::UnderWay, kRhombiPerRound>(ground, walkers, hits, leavers);
+        walk_round<Start::UnderWay, kCellsPerRound>(ground, walkers, hits, leavers);
 }
 void Walk(const WideGrid& grid, bool from_above, int most_rounds, Walkers& walkers, RawHits& hits,
           Leavers& leavers) {
@@ -309,10 +305,11 @@ void Release(const Leavers& leavers, const Directions& directions, bool with_pla
                             HWY_ATTR { hn::StoreU(x, kFloat, to.values + escapes.count + k); };
     for (std::size_t k = 0; k < leavers.count; k += kLanes) {
         const Ints ray = only(first_lanes(k, leavers.count), load(leavers.ray, k));
-        append(gather(directions.x, ray), escapes.x, k);
-        append(gather(directions.y, ray), escapes.y, k);
-        append(gather(directions.z, ray), escapes.z, k);
-        hn::StoreU(gather(directions.path, ray), kInt, escapes.path.values + escapes.count + k);
+        const Fields heading = gather_fields(directions.headings.values, ray);
+        append(heading.a, escapes.x, k);
+        append(heading.b, escapes.y, k);
+        append(heading.c, escapes.z, k);
+        hn::StoreU(hn::BitCast(kInt, heading.d), kInt, escapes.path.values + escapes.count + k);
         if (with_places) {
             append(load(leavers.at_x, k), escapes.at_x, k);
             append(load(leavers.at_y, k), escapes.at_y, k);
