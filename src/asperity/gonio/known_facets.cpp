@@ -19,7 +19,7 @@ constexpr int kWidest = (1 << 15) - 1 - kLaunchGroup;
 constexpr int kProbes = 16;
 constexpr double kWorthwhile = 0.02;
 /// A map of where their rays start pays from this share of the light on.
-constexpr double kMapWorthwhile = 0.3;
+constexpr double kMapWorthwhile = 0.5;
 /// Cells by which a ray may pass beside where it should, for rounding.
 constexpr double kMargin = 1e-3;
 /// Shares of light are added up as integers, so that their order does not matter.
