@@ -100,9 +100,8 @@ void ModelLookTest::albedo_colours_each_channel_apart() {
     QCOMPARE(red.g, red.b);
 }
 
-/// A sphere that wears a small measurement, once it is ready.
-void wear_simulated(Bench& bench, double normalize_factor) {
-    const QTemporaryDir folder;
+/// A sphere that wears a small measurement, which is kept in `folder`, once it is ready.
+void wear_simulated(Bench& bench, const QTemporaryDir& folder, double normalize_factor) {
     const std::string file = folder.filePath("small.asperity").toStdString();
     io::save_measurement(small_measurement(), file);
     bench.begin();
@@ -115,8 +114,9 @@ void wear_simulated(Bench& bench, double normalize_factor) {
 }
 
 void ModelLookTest::normalize_factor_doubles_the_picture_exactly() {
+    const QTemporaryDir folder;
     Bench bench;
-    wear_simulated(bench, 1);
+    wear_simulated(bench, folder, 1);
     const Film once = paint(bench.scene);
     const Brdf* baked = &bench.scene.stage().sight()->scene.material.brdf();
     QVERIFY(luminance(middle(once)) > 0);
@@ -133,8 +133,9 @@ void ModelLookTest::normalize_factor_doubles_the_picture_exactly() {
 }
 
 void ModelLookTest::diffuse_albedo_adds_its_colour() {
+    const QTemporaryDir folder;
     Bench bench;
-    wear_simulated(bench, 0);
+    wear_simulated(bench, folder, 0);
     QVERIFY(is_black(middle(paint(bench.scene))));
     bench.set("diffuse-b", 0.5);
     const Rgb blue = middle(paint(bench.scene));

@@ -17,6 +17,9 @@ std::size_t index(int a) {
     return static_cast<std::size_t>(a);
 }
 
+/// Cells are fetched so many paths ahead.
+constexpr std::size_t kAhead = 16;
+
 /// Numbers of counted rays are summed in units of 2^-kCountShift, as batches are scaled.
 constexpr int kCountShift = 16;
 
@@ -66,6 +69,7 @@ void BatchSums::escape(const PerPath<std::int32_t>& cells, const PerPath<std::in
     if (weights.empty()) {
         std::uint64_t* sums = energy_.data() + kept;
         for (std::size_t k = 0; k < count; ++k) {
+            __builtin_prefetch(sums + index(cells[std::min(k + kAhead, count - 1)]) * stride, 1);
             std::uint64_t& sum = sums[index(cells[k]) * stride];
             if (sum == 0) touch(index(cells[k]));
             sum += kRayEnergy;
@@ -103,6 +107,17 @@ void BatchSums::touch(std::size_t cell) {
     touched_.push_back(static_cast<std::uint32_t>(cell));
 }
 
+template <class Work>
+void BatchSums::for_touched(Work work) const {
+    constexpr std::size_t kFew = 16;
+    if (touched_.size() < cells_ / kFew) {
+        for (const std::uint32_t cell : touched_) work(std::size_t{cell});
+        return;
+    }
+    for (std::size_t cell = 0; cell < cells_; ++cell)
+        if (is_touched_[cell]) work(cell);
+}
+
 void BatchSums::settle(std::vector<std::uint64_t>& account, const PerPath<std::int32_t>& paths,
                        std::size_t count, const Weights& weights) {
     if (weights.empty()) {
@@ -119,10 +134,10 @@ void BatchSums::settle(std::vector<std::uint64_t>& account, const PerPath<std::i
 
 void BatchSums::clear() {
     const std::size_t stride = orders_ * channels_;
-    for (const std::uint32_t cell : touched_) {
+    for_touched([&](std::size_t cell) {
         std::fill_n(&energy_[cell * stride], stride, std::uint64_t{0});
         is_touched_[cell] = 0;
-    }
+    });
     touched_.clear();
     for (auto* account : {&escaped_by_bounce_, &absorbed_, &truncated_, &edge_})
         std::fill(account->begin(), account->end(), std::uint64_t{0});
@@ -172,7 +187,7 @@ void LayerSums::add(const BatchSums& b) {
         albedo_spread_[c].add(
             scaled(std::accumulate(first, first + bounces_, std::uint64_t{0}), b.rays));
     }
-    for (const std::uint32_t cell : b.touched_) {
+    b.for_touched([&](std::size_t cell) {
         const std::uint64_t* sums = &b.energy_[cell * orders_ * channels_];
         std::uint64_t* mine = &energy_[cell * orders_ * channels_];
         CellSpread* spread = &cell_spread_[cell * channels_];
@@ -188,7 +203,7 @@ void LayerSums::add(const BatchSums& b) {
             spread[c].add(energy);
             spread[c].by_counted += Wide{energy} * counted;
         }
-    }
+    });
 }
 
 LayerSums::Estimate LayerSums::estimate(long double sum, long double excess) const {

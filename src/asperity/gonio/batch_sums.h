@@ -61,6 +61,10 @@ class BatchSums {
     friend class LayerSums;
     /// Remembers that a cell holds energy.
     void touch(std::size_t cell);
+    /// Calls work(cell) for the cells that hold energy: in order if they are many, so that memory
+    /// is gone through in one direction.
+    template <class Work>
+    void for_touched(Work work) const;
     /// Books the paths' energy under `account` and the rest of it as absorbed.
     void settle(std::vector<std::uint64_t>& account, const PerPath<std::int32_t>& paths,
                 std::size_t count, const Weights& weights);
