@@ -34,7 +34,6 @@ class Ground {
           periodic(grid.periodic),
           horizon_pays(grid.horizon_pays),
           leaps_pay(grid.leaps_pay),
-          middle_(grid.middle),
           pairs_(grid.pairs),
           pitch_(grid.pitch),
           horizon_(grid.horizon),
@@ -65,9 +64,6 @@ class Ground {
             __builtin_prefetch(horizon_ + entry[lane]);
         }
     }
-
-    /// Height of a vertex on the surface or in its margin.
-    HWY_INLINE Floats height(Ints vertex) const { return gather(middle_, sample_of(vertex)); }
 
     /// The same vertex, or cell, inside the first tile; at most one tile away from it.
     HWY_INLINE Ints wrap(Ints vertex) const {
@@ -114,7 +110,6 @@ class Ground {
         }
     }
 
-    const float* middle_;
     const float* pairs_;
     const std::int32_t pitch_;
     const std::uint8_t* horizon_;

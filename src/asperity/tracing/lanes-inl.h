@@ -85,9 +85,6 @@ HWY_INLINE Ints plus(Ints a, Ints b) {
 HWY_INLINE Ints minus(Ints a, Ints b) {
     return hn::BitCast(kInt, hn::Sub(hn::BitCast(kHalf, a), hn::BitCast(kHalf, b)));
 }
-HWY_INLINE Ints smaller(Ints a, Ints b) {
-    return hn::BitCast(kInt, hn::Min(hn::BitCast(kHalf, a), hn::BitCast(kHalf, b)));
-}
 /// n times the vertex `a`, |n a| < 2^15.
 HWY_INLINE Ints times(Ints n, Ints a) {
     const Ints twice = hn::Or(hn::And(n, all(0xffff)), hn::ShiftLeft<16>(n));
@@ -111,7 +108,7 @@ HWY_INLINE Ints index_of(Ints vertex, std::int32_t pitch) {
 #endif
 }
 
-/// fetch(index), lane by lane; it returns a float or an integer of type T.
+/// fetch(index), lane by lane; it returns a float or a byte, as T says.
 template <class T, class Fetch>
 HWY_INLINE auto gather_by_lane(Ints index, Fetch fetch) {
 #if HWY_TARGET == HWY_AVX2
@@ -126,9 +123,6 @@ HWY_INLINE auto gather_by_lane(Ints index, Fetch fetch) {
     if constexpr (std::is_same_v<T, float>) {
         return Floats{_mm256_setr_ps(first(i01), second(i01), first(i23), second(i23), first(i45),
                                      second(i45), first(i67), second(i67))};
-    } else if constexpr (sizeof(T) == 4) {
-        return Ints{_mm256_setr_epi32(first(i01), second(i01), first(i23), second(i23), first(i45),
-                                      second(i45), first(i67), second(i67))};
     } else {
         __m128i bytes = _mm_cvtsi32_si128(first(i01));
         bytes = _mm_insert_epi8(bytes, second(i01), 1);
@@ -155,9 +149,6 @@ HWY_INLINE Floats gather(const float* from, Ints index) {
 #else
     return gather_by_lane<float>(index, [from](std::int64_t at) { return from[at]; });
 #endif
-}
-HWY_INLINE Ints gather(const std::int32_t* from, Ints index) {
-    return hn::GatherIndex(kInt, from, index);
 }
 HWY_INLINE Ints gather_bytes(const std::uint8_t* from, Ints index) {
     return gather_by_lane<std::uint8_t>(index, [from](std::int64_t at) { return int{from[at]}; });
