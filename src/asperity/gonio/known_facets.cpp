@@ -106,11 +106,10 @@ KnownFacets::KnownFacets(const Scene& scene, const Incidence& incidence, const R
     const double share = look_at_all(look, run);
     // Light straight down needs no map: its rays meet the facets below them
     const bool slanted = look.direction().x != 0 || look.direction().y != 0;
-    if (slanted && share > kMapWorthwhile) {
-        find_open(look, run);
-    } else {
+    if (slanted && share > kMapWorthwhile) find_open(look, run);
+    // A map that was stopped half-way promises nothing
+    if (!slanted || share <= kMapWorthwhile || run.stop_requested())
         for (std::uint8_t& cell : cells_) cell |= CountedFacets::kOpen;
-    }
 }
 
 /// Looks at a row here and there.
@@ -189,6 +188,7 @@ void KnownFacets::find_open(const Look& look, const Run& run) {
     };
     constexpr std::uint8_t kBoth = CountedFacets::kLower | CountedFacets::kUpper;
     parallel_for(static_cast<std::size_t>(cells_y), run.threads(), [&](std::size_t task) {
+        if (!run.keep_going()) return;
         const int j = static_cast<int>(task);
         for (int i = 0; i < cells_x; ++i)
             if ((std::atomic_ref(row(j)[i]).load(std::memory_order_relaxed) & kBoth) != kBoth)

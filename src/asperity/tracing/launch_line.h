@@ -13,8 +13,11 @@ namespace asperity {
 ///
 /// They cross the same edges of the grid one after the other, each shifted by whole cells: so the
 /// way is worked out once, in double precision, and serves a whole row of rays; heights come as
-/// neighbours in memory. The way is a strip of rhombi as in wide_walk-inl.h, in rounds of kSteps
-/// rhombi that are made when the first ray needs them.
+/// neighbours in memory. The edges are tested as in wide_walk-inl.h. Of the three kinds of edges,
+/// columns, rows and diagonals, a ray crosses one as often as the other two together; two
+/// neighbouring ones of that kind with what lies between are a rhombus, so the way is a strip of
+/// rhombi: an edge (A, B) of that kind, a side edge, the next (A', B') ... It comes in rounds of
+/// kSteps rhombi that are made when the first ray needs them.
 class LaunchLine {
   public:
     static constexpr int kSteps = 8;

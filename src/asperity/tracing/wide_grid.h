@@ -27,7 +27,7 @@ struct WideGrid {
     int horizon_pitch, pool_shift;
     bool horizon_pays;   ///< enough paths are free by their facet's horizon to look at it
     bool leaps_pay;      ///< the surface is smooth enough for paths to leap
-    float longest_leap;  ///< rhombi a path may leap over, so that one wrap brings it home
+    float longest_leap;  ///< cells a path may leap over, so that one wrap brings it home
 };
 
 }  // namespace asperity

@@ -129,9 +129,8 @@ HWY_INLINE bool find_open(const CountedFacets& known, int i, int j, int count,
 
 void LaunchSideBySide(const LaunchPlace& place, LaunchLine& line, const LaunchedRow& row,
                       const CountedFacets& known, LaunchHits& hits, std::size_t& counted) {
-    const int cells_x = place.grid->cells_x;
     for (int k = 0; k < row.count; k += kLaunchGroup) {
-        const int i = row.i + k < cells_x ? row.i + k : row.i + k - cells_x;
+        const int i = row.i + k;
         Mask open[kVectors];
         if (find_open(known, i, row.j, std::min(row.count - k, kLaunchGroup), open, counted))
             launch_group(place, line, i, row.j, row.first + k, open, hits);
@@ -176,7 +175,7 @@ void SortLaunched(const WideGrid& grid, const LaunchLine& line, const LaunchHits
 }
 
 /// Rays straight down meet the facet below them; nothing to fly. Those that are to be followed are
-/// appended to `points`. The row must not pass the end of the tile.
+/// appended to `points`.
 void LaunchStraightDown(const WideGrid& grid, float u, float v, const LaunchedRow& row,
                         const CountedFacets& known, FacetPoints& points, std::size_t& counted) {
     const Ground<true> ground(grid);

@@ -31,7 +31,7 @@ struct CountedFacets {
     std::int32_t pitch = 0;
 };
 
-/// Rays of a line, from cell (i, j) on.
+/// Rays of a line, from cell (i, j) on, none beyond the end of the tile.
 struct LaunchedRow {
     int i, j;
     int count;

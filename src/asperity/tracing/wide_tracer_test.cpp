@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace asperity {
 namespace {
 
@@ -36,15 +38,18 @@ TEST_P(WideTracerOn, AgreesWithThePlainTracerRayByRay) {
 void follow_row(const Heightfield& s, const Vec3& d, double u, double v, int i, int j) {
     const Tracer plain(s);
     const WideTracer wide(s, 1);
+    // The row goes on at the other end of the tile
     constexpr int kCount = 100;
+    const int before = std::min(kCount, s.nx - i);
+    const LaunchedRow pieces[] = {{i, j, before, 0}, {0, j, kCount - before, before}};
     PathWave wave;
     wide.clear(wave);
     if (d.x == 0 && d.y == 0) {
-        wide.launch_down(u, v, {i, j, kCount, 0}, {}, wave);
+        for (const LaunchedRow& piece : pieces) wide.launch_down(u, v, piece, {}, wave);
     } else {
         LaunchLine line;
         line.start(wide.heights(), u, v, double{wide.max_height()}, d);
-        wide.launch(line, {i, j, kCount, 0}, {}, wave);
+        for (const LaunchedRow& piece : pieces) wide.launch(line, piece, {}, wave);
     }
     wide.land(d, wave);
     ASSERT_EQ(wave.points.count, kCount);
