@@ -34,7 +34,7 @@ class Ground {
           periodic(grid.periodic),
           horizon_pays(grid.horizon_pays),
           leaps_pay(grid.leaps_pay),
-          pairs_(grid.pairs),
+          middle_(grid.middle),
           pitch_(grid.pitch),
           horizon_(grid.horizon),
           horizon_pitch_(grid.horizon_pitch),
@@ -46,8 +46,8 @@ class Ground {
 
     /// Heights of the corners of a cell on the surface or in its margin.
     HWY_INLINE CellHeights corners(Ints cell) const {
-        const Fields f = gather_fields<2>(pairs_, sample_of(cell));
-        return {f.a, f.c, f.b, f.d};
+        const Fields f = gather_squares(middle_, pitch_, sample_of(cell));
+        return {f.a, f.b, f.c, f.d};
     }
     /// Fetches into the cache what the paths of some lanes will see that go on from `cell`.
     HWY_INLINE void fetch(Ints cell, Mask lanes, Mask to_small_y) const {
@@ -59,8 +59,8 @@ class Ground {
         hn::Store(entry_of(cell), kInt, entry);
         for (unsigned left = bits[0] | unsigned{bits[1]} << 8; left != 0; left &= left - 1) {
             const auto lane = static_cast<unsigned>(__builtin_ctz(left));
-            const float* at = pairs_ + 2 * std::ptrdiff_t{sample[lane]};
-            for (int n = 0; n < 3; ++n) __builtin_prefetch(at + 2 * n * std::ptrdiff_t{row[lane]});
+            const float* at = middle_ + std::ptrdiff_t{sample[lane]};
+            for (int n = 0; n < 4; ++n) __builtin_prefetch(at + n * std::ptrdiff_t{row[lane]});
             __builtin_prefetch(horizon_ + entry[lane]);
         }
     }
@@ -110,7 +110,7 @@ class Ground {
         }
     }
 
-    const float* pairs_;
+    const float* middle_;
     const std::int32_t pitch_;
     const std::uint8_t* horizon_;
     const std::int32_t horizon_pitch_;

@@ -158,18 +158,9 @@ HWY_INLINE Ints gather_bytes(const std::uint8_t* from, Ints index) {
 struct Fields {
     Floats a, b, c, d;
 };
-/// The four values from + kStride * index on, lane by lane: one load a lane instead of four
-/// gathers, then 4 x 4 transposes.
-template <std::ptrdiff_t kStride>
-HWY_INLINE Fields gather_fields(const float* from, Ints index) {
-    alignas(64) std::int32_t at[kLanes];
-    hn::Store(index, kInt, at);
-#if HWY_COMPILER_GCC || HWY_COMPILER_CLANG
-    asm("" : "+m"(at));  // or the compiler takes the vector apart again, which is slower
-#endif
-    const hn::CappedTag<float, 4> four;
-    const auto record = [&](std::size_t lane)
-                            HWY_ATTR { return hn::LoadU(four, from + kStride * at[lane]); };
+/// record(lane) for all lanes, each four values: one field of all lanes a vector, by 4 x 4 transposes.
+template <class Record>
+HWY_INLINE Fields fields_of(Record record) {
     // The records of lanes k, k + 4, ... side by side
     const auto row = [&](std::size_t k) HWY_ATTR {
         if constexpr (kLanes == 4) {
@@ -195,11 +186,42 @@ HWY_INLINE Fields gather_fields(const float* from, Ints index) {
             hn::BitCast(kFloat, hn::InterleaveUpper(kPair, high01, high23))};
 }
 
-/// The four 32-bit fields of records[index].
+/// The lanes of a vector in memory, to be read one by one.
+struct LaneArray {
+    alignas(64) std::int32_t values[kLanes];
+    HWY_INLINE explicit LaneArray(Ints x) {
+        hn::Store(x, kInt, values);
+#if HWY_COMPILER_GCC || HWY_COMPILER_CLANG
+        asm("" : "+m"(values));  // or the compiler takes the vector apart again, which is slower
+#endif
+    }
+    HWY_INLINE std::ptrdiff_t operator[](std::size_t lane) const { return values[lane]; }
+};
+
+/// The four 32-bit fields of records[index], with one load a lane.
 template <class Record>
 HWY_INLINE Fields gather_fields(const Record* records, Ints index) {
     static_assert(sizeof(Record) == 4 * sizeof(float));
-    return gather_fields<4>(reinterpret_cast<const float*>(records), index);
+    const LaneArray at(index);
+    const hn::CappedTag<float, 4> four;
+    return fields_of([&](std::size_t lane) HWY_ATTR {
+        return hn::LoadU(four, reinterpret_cast<const float*>(records + at[lane]));
+    });
+}
+
+/// from[index], the value behind it, and the two that lie `pitch` further, with two loads a lane.
+HWY_INLINE Fields gather_squares(const float* from, std::ptrdiff_t pitch, Ints index) {
+    const LaneArray at(index);
+    const hn::CappedTag<double, 2> two;  // of two values each
+    const hn::Half<decltype(two)> one;
+    return fields_of([&](std::size_t lane) HWY_ATTR {
+        const float* below = from + at[lane];
+        const auto pair = [&](const float* values) HWY_ATTR {
+            return hn::LoadU(one, reinterpret_cast<const double*>(values));
+        };
+        return hn::BitCast(hn::CappedTag<float, 4>(),
+                           hn::Combine(two, pair(below + pitch), pair(below)));
+    });
 }
 
 /// Row m of the table lists the lanes of the bit mask m in order.

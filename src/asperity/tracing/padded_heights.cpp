@@ -52,16 +52,6 @@ PaddedHeights::PaddedHeights(const Heightfield& s, const Run& run)
             for (int i = 0; i <= cells_x_; ++i) out[i + kMargin] = s.at(source_column(i), j);
         }
     });
-    allocate(pairs_, 2 * heights_.size(), run);
-    parallel_for(static_cast<std::size_t>(rows - 1), run.threads(), [&](std::size_t row) {
-        throw_if_stopped(run);
-        const float* below = &heights_[row * static_cast<std::size_t>(pitch_)];
-        float* out = &pairs_[2 * row * static_cast<std::size_t>(pitch_)];
-        for (int k = 0; k < pitch_; ++k) {
-            out[2 * k] = below[k];
-            out[2 * k + 1] = below[k + pitch_];
-        }
-    });
     find_range(s, run);
 }
 

@@ -44,14 +44,8 @@ class PaddedHeights {
     const float* origin() const {
         return heights_.data() + static_cast<std::ptrdiff_t>(kMargin) * pitch_ + kMargin;
     }
-    /// The same samples once more, each with the next one in y beside it: sample (i, j) at
-    /// pairs()[2 * (j * pitch() + i)], then (i, j + 1), so that the four corners of cell (i, j) lie
-    /// side by side. For -kMargin <= i, j < cells + kMargin.
-    const float* pairs() const {
-        return pairs_.data() + 2 * (static_cast<std::ptrdiff_t>(kMargin) * pitch_ + kMargin);
-    }
     float at(int i, int j) const { return origin()[static_cast<std::ptrdiff_t>(j) * pitch_ + i]; }
-    std::size_t memory_bytes() const { return (heights_.size() + pairs_.size()) * sizeof(float); }
+    std::size_t memory_bytes() const { return heights_.size() * sizeof(float); }
 
   private:
     void find_range(const Heightfield& surface, const Run& run);
@@ -60,7 +54,7 @@ class PaddedHeights {
     bool periodic_, mirrored_;
     double dx_, dy_;
     float max_height_ = 0, min_height_ = 0;
-    std::vector<float> heights_, pairs_;
+    std::vector<float> heights_;
 };
 
 }  // namespace asperity

@@ -56,7 +56,6 @@ double roughness_of_slopes(const PaddedHeights& h) {
 
 WideGrid::WideGrid(const PaddedHeights& h, const Horizon& free)
     : middle(h.origin()),
-      pairs(h.pairs()),
       pitch(h.pitch()),
       middle_x(middle_of(h.cells_x())),
       middle_y(middle_of(h.cells_y())),
@@ -70,7 +69,6 @@ WideGrid::WideGrid(const PaddedHeights& h, const Horizon& free)
       horizon_pitch(free.pitch()),
       pool_shift(free.pool_shift()) {
     middle += static_cast<std::ptrdiff_t>(middle_y) * pitch + middle_x;
-    pairs += 2 * (static_cast<std::ptrdiff_t>(middle_y) * pitch + middle_x);
     horizon += (static_cast<std::ptrdiff_t>(middle_y >> pool_shift) * horizon_pitch +
                 (middle_x >> pool_shift)) *
                Horizon::kSectors;

@@ -16,7 +16,6 @@ struct WideGrid {
     // for any number of threads.
 
     const float* middle;  ///< sample (middle_x, middle_y): packed vertices are counted from here
-    const float* pairs;   ///< likewise, of PaddedHeights::pairs
     int pitch;            ///< samples from row to row
     int middle_x, middle_y, cells_x, cells_y;
     bool periodic;
