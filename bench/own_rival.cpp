@@ -59,10 +59,8 @@ class OwnRival : public Rival {
             const LaunchBatch batch(surface_, static_cast<double>(tracer_.max_height()), light,
                                     LaunchPattern::LowDiscrepancy, size, workload.seed, 0,
                                     static_cast<std::uint32_t>(b));
-            for (std::uint64_t first = 0, last = 0; first < size; first = last) {
-                last = Follower::end_of_portion(batch, first);
-                follower.follow(scene, batch, first, last, sums);
-            }
+            for (std::uint64_t part = 0; part < Follower::portions(batch); ++part)
+                follower.follow(scene, batch, part, sums);
             follower.finish(scene, sums);
             layer_sums.add(sums);
             sums.clear();

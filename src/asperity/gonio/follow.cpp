@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace asperity {
 
@@ -16,8 +17,8 @@ namespace {
 /// rays see of the surface stays in the second cache from row to row.
 constexpr std::uint64_t kRowsOfPortion = 8;
 constexpr int kStrip = 512;
-/// Rays launched at a time.
-constexpr int kPiece = 64;
+/// Waves with less room than for so many more are followed.
+constexpr std::size_t kLeastPiece = 64;
 
 }  // namespace
 
@@ -27,87 +28,97 @@ Vec3 direction_of_light(const WideTracer& tracer, const Incidence& light) {
     return d;
 }
 
-std::uint64_t Follower::end_of_portion(const LaunchBatch& batch, std::uint64_t begin) {
-    if (!batch.in_rows()) return std::min(begin + kWave, batch.rays());
-    return batch.end_of_rows(begin, kRowsOfPortion);
+std::uint64_t Follower::portions(const LaunchBatch& batch) {
+    const auto parts = [](std::uint64_t count, std::uint64_t of) { return (count + of - 1) / of; };
+    switch (batch.order()) {
+        case LaunchBatch::Order::Lines:
+            return batch.stripes();
+        case LaunchBatch::Order::Rows:
+            return parts(batch.rows(), kRowsOfPortion);
+        case LaunchBatch::Order::Single:
+            break;
+    }
+    return parts(batch.rays(), kWave);
 }
 
-void Follower::follow(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
-                      std::uint64_t end, BatchSums& sums) {
+std::uint64_t Follower::follow(const Scene& scene, const LaunchBatch& batch, std::uint64_t portion,
+                               BatchSums& sums) {
     const std::size_t channels =
         scene.fresnel.perfect() ? 0 : static_cast<std::size_t>(scene.fresnel.channels());
     weights_.resize(channels);
     reflectance_.resize(channels);
-    sums.rays += end - begin;
-    sums.segments += end - begin;
-    if (batch.in_rows() && scene.tracer.periodic()) {
-        follow_rows(scene, batch, begin, end, sums);
-        return;
-    }
-    for (std::uint64_t first = begin; first < end; first += kWave) {
-        const std::uint64_t last = std::min(first + kWave, end);
-        launch_each(scene, batch, first, last);
-        follow_wave(scene, static_cast<std::size_t>(last - first), false, sums);
-    }
+    direction_ = direction_of_light(scene.tracer, batch.incidence());
+    const std::uint64_t rays =
+        batch.order() == LaunchBatch::Order::Lines  ? follow_lines(scene, batch, portion, sums)
+        : batch.order() == LaunchBatch::Order::Rows ? follow_rows(scene, batch, portion, sums)
+                                                    : follow_each(scene, batch, portion, sums);
+    sums.rays += rays;
+    sums.segments += rays;
+    return rays;
 }
 
 void Follower::finish(const Scene& scene, BatchSums& sums) {
     follow_launched(scene, sums);
 }
 
-void Follower::follow_rows(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
-                           std::uint64_t end, BatchSums& sums) {
-    const WideTracer& tracer = scene.tracer;
-    direction_ = direction_of_light(tracer, batch.incidence());
-    rows_.clear();
-    for (std::uint64_t k = begin; k < end; k += rows_.back().count) {
-        LaunchRow row = batch.row(k);
-        row.count = std::min(row.count, end - k);
-        if (tracer.mirrored()) {
-            // The last ray comes first; rays of a row are all alike
-            const int cells = tracer.cells_x();
-            row.i = (2 * cells - row.i - static_cast<int>(row.count)) % cells;
-            row.u = 1 - row.u;
-        }
-        rows_.push_back(row);
-    }
-    if (direction_.x != 0 || direction_.y != 0) {
-        if (lines_.size() < rows_.size()) lines_.resize(rows_.size());
-        for (std::size_t r = 0; r < rows_.size(); ++r)
-            lines_[r].start(tracer.heights(), rows_[r].u, rows_[r].v, double{tracer.max_height()},
-                            direction_);
-    }
-    launch_rows(scene, sums);
+/// Launches a stripe of lines, and follows the rays whenever they fill a wave.
+std::uint64_t Follower::follow_lines(const Scene& scene, const LaunchBatch& batch,
+                                     std::uint64_t portion, BatchSums& sums) {
+    const CountedFacets known = scene.known ? scene.known->counted() : CountedFacets{};
+    // All stripes go the same way
+    if (portion == 0) scene.tracer.start(line_, batch.offset(), direction_);
+    LaunchStripe stripe = batch.stripe(portion);
+    while (!scene.tracer.launch(line_, stripe, known, wave_)) follow_launched(scene, sums);
+    return std::accumulate(stripe.rays, stripe.rays + stripe.lines, std::uint64_t{0});
 }
 
-/// Launches the rows, and follows the rays whenever there are enough for a wave.
-void Follower::launch_rows(const Scene& scene, BatchSums& sums) {
+/// Launches rows of rays straight down, and follows the rays whenever they fill a wave.
+std::uint64_t Follower::follow_rows(const Scene& scene, const LaunchBatch& batch,
+                                    std::uint64_t portion, BatchSums& sums) {
     const WideTracer& tracer = scene.tracer;
     const CountedFacets known = scene.known ? scene.known->counted() : CountedFacets{};
     const int cells = tracer.cells_x();
-    const bool down = direction_.x == 0 && direction_.y == 0;
+    std::uint64_t rays = 0;
+    rows_.clear();
+    for (std::uint64_t r = portion * kRowsOfPortion;
+         r < std::min((portion + 1) * kRowsOfPortion, batch.rows()); ++r) {
+        LaunchRow row = batch.row(r);
+        if (tracer.mirrored()) {
+            // The last ray comes first; rays of a row are all alike
+            row.i = (2 * cells - row.i - static_cast<int>(row.count)) % cells;
+            row.u = 1 - row.u;
+        }
+        rays += row.count;
+        rows_.push_back(row);
+    }
     for (int x = 0; x < cells; x += kStrip) {
         const int end = std::min(x + kStrip, cells);
-        for (std::size_t r = 0; r < rows_.size(); ++r) {
+        for (const LaunchRow& row : rows_) {
             // A row may pass the end of the tile and go on at its beginning
-            const LaunchRow& row = rows_[r];
             for (const int begin : {0, cells}) {
                 const int from = std::max(x + begin, row.i);
                 const int to = std::min(end + begin, row.i + static_cast<int>(row.count));
-                for (int i = from; i < to; i += kPiece) {
-                    if (tracer.launched(wave_) + kPiece > kWave) follow_launched(scene, sums);
-                    const LaunchedRow piece{i % cells, row.j, std::min(kPiece, to - i), 0};
-                    if (down)
-                        tracer.launch_down(row.u, row.v, piece, known, wave_);
-                    else
-                        tracer.launch(lines_[r], piece, known, wave_);
+                for (int i = from, count = 0; i < to; i += count) {
+                    const std::size_t room = kWave - tracer.launched(wave_);
+                    count = std::min(static_cast<int>(room), to - i);
+                    tracer.launch_down(row.u, row.v, {i % cells, row.j, count}, known, wave_);
+                    if (tracer.launched(wave_) + kLeastPiece > kWave) follow_launched(scene, sums);
                 }
             }
         }
     }
+    return rays;
 }
 
-/// Follows the rays of rows that have been launched.
+std::uint64_t Follower::follow_each(const Scene& scene, const LaunchBatch& batch,
+                                    std::uint64_t portion, BatchSums& sums) {
+    const std::uint64_t first = portion * kWave, last = std::min(first + kWave, batch.rays());
+    launch_each(scene, batch, first, last);
+    follow_wave(scene, static_cast<std::size_t>(last - first), false, sums);
+    return last - first;
+}
+
+/// Follows the rays of parallel light that have been launched.
 void Follower::follow_launched(const Scene& scene, BatchSums& sums) {
     // Some are only counted
     if (wave_.counted > 0) sums.escape_counted(wave_.counted, scene.known->light());

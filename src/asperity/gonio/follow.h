@@ -30,22 +30,26 @@ Vec3 direction_of_light(const WideTracer& tracer, const Incidence& light);
 /// Follows rays from facet to facet until they leave; the working memory of one thread.
 class Follower {
   public:
-    /// The end of a portion of the batch's rays from `begin` on that is good to follow at a time:
-    /// so that those that are near each other come together, some thousand.
-    static std::uint64_t end_of_portion(const LaunchBatch& batch, std::uint64_t begin);
+    /// Portions of a batch that are good to follow at a time: rays that start near each other, some
+    /// thousand.
+    static std::uint64_t portions(const LaunchBatch& batch);
 
-    /// Follows a portion of the rays of a batch and adds what became of their energy to `sums`; the
-    /// last of them may wait for finish(). Adds integers only: the order of the calls does not
-    /// matter. A follower that was not asked to finish must not be used for another batch.
-    void follow(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
-                std::uint64_t end, BatchSums& sums);
+    /// Follows a portion of a batch, adds what became of its energy to `sums`, and returns how many
+    /// rays it held; the last of them may wait for finish(). Adds integers only: the order of the
+    /// calls does not matter. A follower that was not asked to finish must not be used for another
+    /// batch.
+    std::uint64_t follow(const Scene& scene, const LaunchBatch& batch, std::uint64_t portion,
+                         BatchSums& sums);
     /// Follows the rays that still wait.
     void finish(const Scene& scene, BatchSums& sums);
 
   private:
-    void follow_rows(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
-                     std::uint64_t end, BatchSums& sums);
-    void launch_rows(const Scene& scene, BatchSums& sums);
+    std::uint64_t follow_lines(const Scene& scene, const LaunchBatch& batch, std::uint64_t portion,
+                               BatchSums& sums);
+    std::uint64_t follow_rows(const Scene& scene, const LaunchBatch& batch, std::uint64_t portion,
+                              BatchSums& sums);
+    std::uint64_t follow_each(const Scene& scene, const LaunchBatch& batch, std::uint64_t portion,
+                              BatchSums& sums);
     void launch_each(const Scene& scene, const LaunchBatch& batch, std::uint64_t begin,
                      std::uint64_t end);
     void follow_launched(const Scene& scene, BatchSums& sums);
@@ -54,9 +58,9 @@ class Follower {
     void settle(const Scene& scene, int reflections, BatchSums& sums);
 
     PathWave wave_;
-    Vec3 direction_;  ///< of the rays in rows
+    Vec3 direction_;  ///< of parallel light
     std::vector<LaunchRow> rows_;
-    std::vector<LaunchLine> lines_;  ///< one a row
+    LaunchLine line_;
     PerPath<float> cosine_, cos_phi_, sin_phi_;
     PerPath<std::int32_t> cells_;
     std::vector<PerPath<float>> weights_;  ///< [channel], by path; empty for perfect mirrors

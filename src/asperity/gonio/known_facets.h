@@ -27,7 +27,9 @@ class KnownFacets {
     /// Whether `rays` of a layer are worth the look: one a cell, on a tile that fits the memory.
     static bool pay(const WideTracer& tracer, std::uint64_t rays);
 
-    CountedFacets counted() const { return {cells_.empty() ? nullptr : cells_.data(), pitch_}; }
+    CountedFacets counted() const {
+        return {cells_.empty() ? nullptr : cells_.data(), pitch_, swapped_};
+    }
     /// Where the rays onto them go.
     const CountedLight& light() const { return light_; }
 
@@ -35,14 +37,12 @@ class KnownFacets {
     /// Looks at parallel light on the facets, a row at a time.
     class Look;
     bool worthwhile(const Look& look, const Run& run) const;
-    double look_at_all(const Look& look, const Run& run);
-    void find_open(const Look& look, const Run& run);
-    std::uint8_t* row(int j) {
-        return &cells_[static_cast<std::size_t>(j) * static_cast<std::size_t>(pitch_)];
-    }
+    void look_at_all(const Look& look, const Run& run);
+    void mark(std::size_t j, const std::vector<std::uint8_t>& known, std::size_t width);
 
     std::vector<std::uint8_t> cells_;  ///< as in CountedFacets
     std::int32_t pitch_ = 0;
+    bool swapped_ = false;
     CountedLight light_;
 };
 

@@ -43,10 +43,8 @@ class KnownFacetsOf : public testing::TestWithParam<Case> {
                                 LaunchPattern::LowDiscrepancy, rays, 1, 0, 0);
         BatchSums sums(detector_.cells(), fresnel_.channels(), kOrders, kBounces);
         Follower follower;
-        for (std::uint64_t k = 0, end = 0; k < rays; k = end) {
-            end = Follower::end_of_portion(batch, k);
-            follower.follow(scene, batch, k, end, sums);
-        }
+        for (std::uint64_t part = 0; part < Follower::portions(batch); ++part)
+            follower.follow(scene, batch, part, sums);
         follower.finish(scene, sums);
         LayerSums all(detector_.cells(), fresnel_.channels(), kOrders, kBounces, rays,
                       known ? &known->light() : nullptr);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace asperity {
 
@@ -17,6 +18,9 @@ enum Dimension : std::uint32_t { kPosition, kAzimuth, kShift, kFirstCell };
 
 /// Batches are told apart in the upper bits of the counter's index; a batch has fewer rays.
 constexpr int kBatchShift = 40;
+
+/// With fewer rays than one for so many cells it is cheaper to leave lines out.
+constexpr std::uint64_t kMostCellsPerRay = 16;
 
 /// (sqrt(5) - 1) / 2 in units of 2^-64.
 constexpr std::uint64_t kGoldenRatio = 0x9e3779b97f4a7c15u;
@@ -73,6 +77,11 @@ LaunchBatch::LaunchBatch(const Heightfield& surface, double height, const Incide
         rows_ = (rays + cells_x_ - 1) / cells_x_;
         first_cell_ = static_cast<std::uint32_t>(
             (Wide{random_.bits64(first_, kFirstCell)[0]} * cells_x_) >> 64);
+        if (surface.boundary == Boundary::Periodic && !incidence.isotropic) {
+            const Vec3 d = from_spherical(incidence.theta, incidence.phi);
+            order_ = d.x == 0 && d.y == 0 ? Order::Rows : Order::Lines;
+            if (order_ == Order::Lines) lay_out_lines(surface);
+        }
     } else {
         // So that the spacing of the strata is alike in x and y
         const double n = static_cast<double>(rays);
@@ -82,18 +91,61 @@ LaunchBatch::LaunchBatch(const Heightfield& surface, double height, const Incide
     }
 }
 
-LaunchRow LaunchBatch::row(std::uint64_t k) const {
-    const std::uint64_t r = k * rows_ / rays_;
-    const std::uint64_t within = k - row_begin(r);
+void LaunchBatch::lay_out_lines(const Heightfield& surface) {
+    const Vec3 d = from_spherical(incidence_.theta, incidence_.phi);
+    const double per_x = std::abs(d.x) / surface.dx, per_y = std::abs(d.y) / surface.dy;
+    const bool along_x = per_x > per_y;
+    cells_across_ = along_x ? cells_y_ : cells_x_;
+    const std::uint64_t cells_along = along_x ? cells_x_ : cells_y_;
+    fall_ = static_cast<double>(cells_along) * d.z / std::max(per_x, per_y);
+
+    // All lines, or groups of them
+    const std::uint64_t all = (cells_across_ + kLaunchGroup - 1) / kLaunchGroup;
+    const std::uint64_t cells_of_stripe = kLaunchGroup * cells_along;
+    stripes_ = std::min((rays_ * kMostCellsPerRay + cells_of_stripe - 1) / cells_of_stripe, all);
+    lines_ = stripes_ == all ? cells_across_ : stripes_ * kLaunchGroup;
+    const auto first = random_.bits64(first_, kFirstCell);
+    first_cell_ = static_cast<std::uint32_t>((Wide{first[0]} * cells_across_) >> 64);
+    first_share_ = first[1];
+}
+
+std::uint64_t LaunchBatch::line_begin(std::uint64_t line) const {
+    const Wide share = ((Wide{line} * rays_) << 64) / lines_;
+    return static_cast<std::uint64_t>((share + first_share_) >> 64);
+}
+
+double LaunchBatch::offset() const {
+    return to_unit(shift_.x);
+}
+
+LaunchStripe LaunchBatch::stripe(std::uint64_t s) const {
+    LaunchStripe stripe;
+    const std::uint64_t begin = s * kLaunchGroup, end = std::min(begin + kLaunchGroup, lines_);
+    const std::uint64_t left_out = s * (cells_across_ - lines_) / stripes_;
+    stripe.first = static_cast<int>((first_cell_ + begin + left_out) % cells_across_);
+    stripe.lines = static_cast<int>(end - begin);
+    for (std::uint64_t line = begin; line < end; ++line) {
+        const std::size_t k = static_cast<std::size_t>(line - begin);
+        const std::uint64_t rays = line_begin(line + 1) - line_begin(line);
+        stripe.rays[k] = static_cast<std::int32_t>(rays);
+        stripe.phase[k] = to_unit(shift_.y + line * kGoldenRatio);
+        stripe.spacing[k] = fall_ / static_cast<double>(std::max<std::uint64_t>(rays, 1));
+    }
+    for (std::size_t k = 0; k < kLaunchGroup; ++k) stripe.per_spacing[k] = stripe.rays[k] / fall_;
+    for (float& shade : stripe.shade) shade = -std::numeric_limits<float>::infinity();
+    return stripe;
+}
+
+LaunchRow LaunchBatch::row(std::uint64_t r) const {
     LaunchRow row;
-    row.count = row_begin(r + 1) - k;
+    row.count = row_begin(r + 1) - row_begin(r);
     // Rows are as far apart as each other
     row.j = split(static_cast<std::uint64_t>((Wide{r} << 64) / rows_) + shift_.y, cells_y_, row.v);
     // The golden ratio of a cell from row to row; a row shorter than the tile begins elsewhere, too
     row.u = to_unit(shift_.x + r * kGoldenRatio);
     const std::uint64_t golden_cell =
         static_cast<std::uint64_t>((Wide{r * kGoldenRatio} * cells_x_) >> 64);
-    row.i = static_cast<std::int32_t>((first_cell_ + golden_cell + within) % cells_x_);
+    row.i = static_cast<std::int32_t>((first_cell_ + golden_cell) % cells_x_);
     return row;
 }
 
@@ -117,8 +169,10 @@ LaunchBatch::Point LaunchBatch::random_point(std::uint64_t k) const {
 Launch LaunchBatch::launch(std::uint64_t k) const {
     Launch l;
     if (pattern_ == LaunchPattern::LowDiscrepancy) {
-        const LaunchRow start = row(k);
-        l.ray.i = start.i;
+        const std::uint64_t r = k * rows_ / rays_;
+        const LaunchRow start = row(r);
+        l.ray.i = static_cast<std::int32_t>(
+            (static_cast<std::uint64_t>(start.i) + k - row_begin(r)) % cells_x_);
         l.ray.j = start.j;
         l.ray.u = start.u;
         l.ray.v = start.v;

@@ -5,8 +5,8 @@
 #include <asperity/gonio/experiment.h>
 #include <asperity/surface/heightfield.h>
 #include <asperity/tracing/tracer.h>
+#include <asperity/tracing/wide_launch.h>
 
-#include <algorithm>
 #include <cstdint>
 
 namespace asperity {
@@ -40,8 +40,10 @@ struct LaunchRow {
 /// uniform in flux. Every pattern gives each point of the tile the same density, so the estimate is
 /// free of bias; batches are independent of each other, so their spread shows its error.
 ///
-/// The lattice of LowDiscrepancy consists of rows of points one cell apart, so that the rays of a
-/// row cross the grid in step; rows are shifted against each other by the golden ratio of a cell.
+/// The points of LowDiscrepancy form a lattice. Where parallel light comes in at an angle onto a
+/// periodic surface, it consists of lines along the light, a cell beside each other: rays of a line
+/// share their way (tracing/launch_line.h). Else it consists of rows of points a cell apart. Lines,
+/// or rows, are shifted against each other by the golden ratio of the distance of their points.
 class LaunchBatch {
   public:
     /// `index` and `rays` of this batch; `stream` separates the layers of a run. Throws nothing.
@@ -50,19 +52,23 @@ class LaunchBatch {
                 std::uint32_t index);
 
     std::uint64_t rays() const { return rays_; }
-    /// The k-th ray, k < rays(); neighbours in k start near each other, which the caches like.
-    Launch launch(std::uint64_t k) const;
-    /// Whether parallel rays start in rows.
-    bool in_rows() const {
-        return pattern_ == LaunchPattern::LowDiscrepancy && !incidence_.isotropic;
-    }
-    /// What is left from ray k on of the row it belongs to; LowDiscrepancy only.
-    LaunchRow row(std::uint64_t k) const;
-    /// The first ray beyond `count` rows, that of ray k being the first; at most rays().
-    std::uint64_t end_of_rows(std::uint64_t k, std::uint64_t count) const {
-        return row_begin(std::min(k * rows_ / rays_ + count, rows_));
-    }
     const Incidence& incidence() const { return incidence_; }
+    /// How rays start: one by one, or so that they can be followed together.
+    enum class Order { Single, Rows, Lines };
+    Order order() const { return order_; }
+
+    /// Single, Rows: the k-th ray, k < rays(); neighbours in k start near each other, which the
+    /// caches like.
+    Launch launch(std::uint64_t k) const;
+    /// Rows: the r-th row, r < rows().
+    LaunchRow row(std::uint64_t r) const;
+    std::uint64_t rows() const { return rows_; }
+    /// Lines: the s-th stripe of them, s < stripes(), in the frame of a WideTracer, whether that is
+    /// mirrored or not. Few rays leave parts of the tile out, elsewhere in each batch.
+    LaunchStripe stripe(std::uint64_t s) const;
+    std::uint64_t stripes() const { return stripes_; }
+    /// Where all lines start in their cells, as WideTracer::start wants it.
+    double offset() const;
 
   private:
     /// A point of the tile in units of 2^-64 of its sides.
@@ -71,6 +77,9 @@ class LaunchBatch {
     };
     /// The first ray of a row; rows are as long as each other but for one.
     std::uint64_t row_begin(std::uint64_t row) const { return (row * rays_ + rows_ - 1) / rows_; }
+    void lay_out_lines(const Heightfield& surface);
+    /// Rays of the lines before this one.
+    std::uint64_t line_begin(std::uint64_t line) const;
     Point stratified_point(std::uint64_t k) const;
     Point random_point(std::uint64_t k) const;
 
@@ -78,11 +87,18 @@ class LaunchBatch {
     LaunchPattern pattern_;
     CounterRandom random_;
     std::uint64_t rays_, first_;
-    std::uint64_t rows_;  ///< of points
-    Point shift_;         ///< of the lattice
+    Order order_ = Order::Single;
+    std::uint64_t rows_ = 0;  ///< of points
+    Point shift_;             ///< of the lattice
     std::uint32_t first_cell_ = 0;
     std::uint32_t cells_x_, cells_y_;
     double height_;
+    // Of lines
+    std::uint64_t stripes_ = 0, lines_ = 0;
+    std::uint64_t first_share_ =
+        0;  ///< of a ray that the lines before the first one have left over
+    std::uint32_t cells_across_ = 0;
+    double fall_ = 0;  ///< height by which light sinks along a line
 };
 
 }  // namespace asperity

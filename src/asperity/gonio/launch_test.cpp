@@ -31,7 +31,7 @@ TEST_P(LaunchOfEachPattern, EveryPointOfTheTileIsEquallyLikely) {
     std::vector<double> counts(96);
     double samples = 0;
     for (std::uint32_t batch = 0; batch < 6000; ++batch) {
-        const LaunchBatch b(s, 1, {1, 0.3, 0, false}, GetParam(), 5, 17, 2, batch);
+        const LaunchBatch b(s, 1, {1, 0, 0, false}, GetParam(), 5, 17, 2, batch);
         for (std::uint64_t k = 0; k < 5; ++k) {
             if (GetParam() == LaunchPattern::LowDiscrepancy && k != 3) continue;
             const Ray r = b.launch(k).ray;
@@ -44,6 +44,76 @@ TEST_P(LaunchOfEachPattern, EveryPointOfTheTileIsEquallyLikely) {
     double chi2 = 0;
     for (const double n : counts) chi2 += (n - samples / 96) * (n - samples / 96) / (samples / 96);
     EXPECT_LT(chi2, 95 + 4 * std::sqrt(2 * 95.0));
+}
+
+/// Batches with rays for all lines, and with fewer than that.
+TEST(Launch, LinesFindEveryPointOfTheTileEquallyLikely) {
+    // One ray of each of many batches, told by its line and how far along it lies; chi-square over
+    // 12 x 8 parts of the tile, and over where in its cell it starts.
+    const Heightfield s = tile(96, 64);
+    for (const std::uint64_t rays : {13, 700}) {
+        std::vector<double> counts(96), offsets(8);
+        constexpr std::uint32_t kBatches = 9600;
+        for (std::uint32_t batch = 0; batch < kBatches; ++batch) {
+            const LaunchBatch b(s, 1, {1, 0.3, radians(70), false}, LaunchPattern::LowDiscrepancy,
+                                rays, 17, 2, batch);
+            ASSERT_EQ(b.order(), LaunchBatch::Order::Lines);
+            ASSERT_EQ(b.stripes(), rays == 13 ? 1 : 3);
+            auto ray = static_cast<std::int32_t>(batch % rays);
+            for (std::uint64_t n = 0; n < b.stripes(); ++n) {
+                const LaunchStripe stripe = b.stripe(n);
+                for (std::size_t k = 0; k < static_cast<std::size_t>(stripe.lines); ++k) {
+                    if (ray >= 0 && ray < stripe.rays[k]) {
+                        const int line = (stripe.first + static_cast<int>(k)) % 96;
+                        const double along = (stripe.phase[k] + ray) / stripe.rays[k];
+                        ++counts[static_cast<std::size_t>(line / 8 * 8 +
+                                                          static_cast<int>(8 * along))];
+                        ++offsets[static_cast<std::size_t>(8 * b.offset())];
+                    }
+                    ray -= stripe.rays[k];
+                }
+            }
+        }
+        const auto chi_square = [&](const std::vector<double>& parts) {
+            const double expected = kBatches / static_cast<double>(parts.size());
+            double chi2 = 0;
+            for (const double n : parts) chi2 += (n - expected) * (n - expected) / expected;
+            return chi2;
+        };
+        EXPECT_LT(chi_square(counts), 95 + 4 * std::sqrt(2 * 95.0)) << rays;
+        EXPECT_LT(chi_square(offsets), 7 + 5 * std::sqrt(14.0)) << rays;
+    }
+}
+
+TEST(Launch, LinesHoldAllRaysAndNoneTwice) {
+    const Heightfield s = tile(100, 40);
+    for (const double phi : {0.0, 50.0, 90.0, 200.0})
+        for (const std::uint64_t rays : {2, 97, 250, 4000, 10007}) {
+            const LaunchBatch b(s, 1, {1, 1.2, radians(phi), false}, LaunchPattern::LowDiscrepancy,
+                                rays, 1, 0, 3);
+            std::set<int> lines;
+            std::uint64_t sum = 0;
+            std::size_t count = 0;
+            const int across =
+                std::abs(std::cos(radians(phi))) > std::abs(std::sin(radians(phi))) ? 40 : 100;
+            for (std::uint64_t n = 0; n < b.stripes(); ++n) {
+                const LaunchStripe stripe = b.stripe(n);
+                for (int k = 0; k < stripe.lines; ++k) {
+                    lines.insert((stripe.first + k) % across);
+                    sum += static_cast<std::uint64_t>(stripe.rays[k]);
+                    ++count;
+                    // As far as light sinks while it crosses the tile
+                    const double cells = across == 40 ? 100 / std::abs(std::cos(radians(phi)))
+                                                      : 40 / std::abs(std::sin(radians(phi)));
+                    if (stripe.rays[k] > 0) {
+                        EXPECT_NEAR(stripe.spacing[k] * stripe.rays[k], cells / std::tan(1.2),
+                                    1e-9);
+                    }
+                }
+            }
+            EXPECT_EQ(sum, rays);
+            EXPECT_EQ(lines.size(), count);
+        }
 }
 
 TEST(Launch, StratifiedPutsOnePointIntoEveryStratum) {

@@ -214,11 +214,9 @@ class Gonioreflectometer {
                                     experiment_.run.launch, plan_.rays_of(b), experiment_.run.seed,
                                     stream, static_cast<std::uint32_t>(b));
             // Follow the rays until they leave, and sort them by direction
-            for (std::uint64_t first = 0, last = 0; first < batch.rays(); first = last) {
+            for (std::uint64_t part = 0; part < Follower::portions(batch); ++part) {
                 if (!run_.keep_going()) return;
-                last = Follower::end_of_portion(batch, first);
-                work->follower.follow(scene, batch, first, last, work->sums);
-                run_.advance(last - first);
+                run_.advance(work->follower.follow(scene, batch, part, work->sums));
             }
             work->follower.finish(scene, work->sums);
             // Add the batch to its layer; integers, so the order does not matter

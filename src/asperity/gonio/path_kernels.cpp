@@ -114,54 +114,87 @@ void FindCells(const Escapes& escapes, bool equal_area, int rows, int columns, f
     }
 }
 
-/// A row of facets of one kind: O is the corner with the right angle, `side` as in FacetPoints.
+/// Parallel light onto the facets of whole rows.
 template <class GroundT>
-void look_at_row(const GroundT& ground, const WideGrid& grid, const CellFinder& find,
-                 float mirror_x, const float (&d)[3], int j, bool upper, const FacetRow& row) {
-    const Floats zero = hn::Zero(kFloat), side = all(upper ? -1.0f : 1.0f);
-    const Floats x = all(d[0]), y = all(d[1]), z = all(d[2]);
-    // Towards the light
-    const Ints light_sector = sector_of(hn::Neg(x), hn::Neg(y));
-    const Floats light_level = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
-    const float* below =
-        grid.middle + std::ptrdiff_t{j - grid.middle_y} * grid.pitch - grid.middle_x;
-    const float* above = below + grid.pitch;
-    const float* at_o = upper ? above + 1 : below;
-    const float* at_u = upper ? above : below + 1;
-    const float* at_v = upper ? below + 1 : above;
-    const auto count = static_cast<std::size_t>(grid.cells_x);
-    for (std::size_t k = 0; k < count; k += kLanes) {
-        const Floats o = hn::LoadU(kFloat, at_o + k), u = hn::LoadU(kFloat, at_u + k),
-                     v = hn::LoadU(kFloat, at_v + k);
-        const Mirrored out = mirror(x, y, z, hn::Mul(hn::Mul(side, hn::Sub(u, o)), ground.per_x),
-                                    hn::Mul(hn::Mul(side, hn::Sub(v, o)), ground.per_y));
-        // Free, and in the light, wherever on the facet: beyond the horizon of its cell
-        const Ints i = hn::Add(hn::Iota(kInt, static_cast<std::int32_t>(k)), all(-grid.middle_x));
-        const Ints cell =
-            only(first_lanes(k, count),
-                 hn::Or(hn::And(i, all(0xffff)), all(pack_vertex(0, j - grid.middle_y))));
-        Floats slope = ground.steepest, light_slope = ground.steepest;
-        if (ground.horizon_pays) {
-            slope = hn::Min(slope, ground.horizon(cell, sector_of(out.x, out.y)));
-            light_slope = hn::Min(light_slope, ground.horizon(cell, light_sector));
-        }
-        const Mask on_top = hn::Ge(hn::Min(o, hn::Min(u, v)), ground.max_height);
-        const Mask free =
-            hn::Or(hn::And(on_top, hn::Ge(out.z, zero)), hn::Gt(out.z, hn::Mul(slope, out.level)));
-        const Mask lit =
-            hn::And(hn::Lt(out.d_m, zero),
-                    hn::Or(on_top, hn::Gt(hn::Neg(z), hn::Mul(light_slope, light_level))));
-        hn::StoreU(find(hn::Mul(all(mirror_x), out.x), out.y, out.z), kInt, row.cells + k);
-        hn::StoreU(hn::IfThenElseZero(hn::And(free, lit), hn::Div(out.d_m, z)), kFloat,
-                   row.flux + k);
-        hn::StoreU(out.cosine, kFloat, row.cosine + k);
+class FacetLook {
+  public:
+    HWY_INLINE FacetLook(const GroundT& ground, const CellFinder& find, float mirror_x,
+                         const float (&d)[3], float unit)
+        : ground_(ground),
+          find_(find),
+          mirror_x_(all(mirror_x)),
+          x_(all(d[0])),
+          y_(all(d[1])),
+          z_(all(d[2])),
+          light_level_(hn::Sqrt(hn::Add(hn::Mul(x_, x_), hn::Mul(y_, y_)))),
+          unit_per_z_(hn::Div(all(unit), z_)),
+          light_sector_(sector_of(hn::Neg(x_), hn::Neg(y_))) {}
+
+    /// Whether light that climbs like this back to where it comes from meets nothing from any point
+    /// of the cell.
+    HWY_INLINE Mask lit(Ints cell) const {
+        return hn::Gt(hn::Neg(z_), hn::Mul(slope(cell, light_sector_), light_level_));
     }
-}
+    /// Looks at the facets with corners at the heights o, u, v: `side` as in FacetPoints. Returns
+    /// those that are known.
+    HWY_INLINE Mask look(Ints cell, Mask cell_lit, Floats side, Floats o, Floats u, Floats v,
+                         const FacetRow& row, std::size_t k) const {
+        const Mirrored out =
+            mirror(x_, y_, z_, hn::Mul(hn::Mul(side, hn::Sub(u, o)), ground_.per_x),
+                   hn::Mul(hn::Mul(side, hn::Sub(v, o)), ground_.per_y));
+        const Floats zero = hn::Zero(kFloat);
+        // Free, and in the light, wherever on the facet: beyond the horizon of its cell
+        const Mask on_top = hn::Ge(hn::Min(o, hn::Min(u, v)), ground_.max_height);
+        const Mask free =
+            hn::Or(hn::And(on_top, hn::Ge(out.z, zero)),
+                   hn::Gt(out.z, hn::Mul(slope(cell, sector_of(out.x, out.y)), out.level)));
+        const Mask in_light = hn::And(hn::Lt(out.d_m, zero), hn::Or(on_top, cell_lit));
+        const Ints flux =
+            only(hn::And(free, in_light), hn::ConvertTo(kInt, hn::Mul(out.d_m, unit_per_z_)));
+        hn::StoreU(find_(hn::Mul(mirror_x_, out.x), out.y, out.z), kInt, row.cells + k);
+        hn::StoreU(flux, kInt, row.flux + k);
+        if (row.cosine) hn::StoreU(out.cosine, kFloat, row.cosine + k);
+        return hn::RebindMask(kFloat, hn::Gt(flux, hn::Zero(kInt)));
+    }
+
+  private:
+    HWY_INLINE Floats slope(Ints cell, Ints sector) const {
+        return ground_.horizon_pays ? hn::Min(ground_.steepest, ground_.horizon(cell, sector))
+                                    : ground_.steepest;
+    }
+    const GroundT& ground_;
+    const CellFinder& find_;
+    const Floats mirror_x_, x_, y_, z_, light_level_, unit_per_z_;
+    const Ints light_sector_;
+};
+
 void LookAtFacets(const WideGrid& grid, bool equal_area, int rows, int columns, float mirror_x,
-                  const float (&d)[3], int j, bool upper, const FacetRow& row) {
+                  const float (&d)[3], float unit, int j, const FacetRow& lower,
+                  const FacetRow& upper, std::uint8_t* known) {
     const CellFinder find(equal_area, rows, columns);
-    on_ground(grid, [&](const auto& ground)
-                        HWY_ATTR { look_at_row(ground, grid, find, mirror_x, d, j, upper, row); });
+    on_ground(grid, [&](const auto& ground) HWY_ATTR {
+        const FacetLook look(ground, find, mirror_x, d, unit);
+        const float* below =
+            grid.middle + std::ptrdiff_t{j - grid.middle_y} * grid.pitch - grid.middle_x;
+        const float* above = below + grid.pitch;
+        const auto count = static_cast<std::size_t>(grid.cells_x);
+        for (std::size_t k = 0; k < count; k += kLanes) {
+            const Floats h00 = hn::LoadU(kFloat, below + k), h10 = hn::LoadU(kFloat, below + k + 1),
+                         h01 = hn::LoadU(kFloat, above + k), h11 = hn::LoadU(kFloat, above + k + 1);
+            const Ints i =
+                hn::Add(hn::Iota(kInt, static_cast<std::int32_t>(k)), all(-grid.middle_x));
+            const Ints cell =
+                only(first_lanes(k, count),
+                     hn::Or(hn::And(i, all(0xffff)), all(pack_vertex(0, j - grid.middle_y))));
+            const Mask lit = look.lit(cell);
+            const Mask l = look.look(cell, lit, all(1.0f), h00, h10, h01, lower, k);
+            const Mask u = look.look(cell, lit, all(-1.0f), h11, h01, h10, upper, k);
+            const Ints bits = hn::Or(only(l, all(std::int32_t{CountedFacets::kLower})),
+                                     only(u, all(std::int32_t{CountedFacets::kUpper})));
+            const hn::Rebind<std::uint8_t, IntTag> bytes;
+            hn::StoreU(hn::DemoteTo(bytes, bits), bytes, known + k);
+        }
+    });
 }
 
 void ReflectParallel(const FacetPoints& points, const Vec3& d, float per_x, float per_y,
@@ -203,13 +236,14 @@ void find_cells(const Escapes& escapes, const Detector& detector, float mirror_x
      mirror_x, cos_phi, sin_phi, cells);
 }
 
-void look_at_facets(const WideGrid& grid, const Detector& detector, float mirror_x, Vec3 d, int j,
-                    bool upper, const FacetRow& row) {
+void look_at_facets(const WideGrid& grid, const Detector& detector, float mirror_x, Vec3 d,
+                    float unit, int j, const FacetRow& lower, const FacetRow& upper,
+                    std::uint8_t* known) {
     const float direction[3] = {static_cast<float>(d.x), static_cast<float>(d.y),
                                 static_cast<float>(d.z)};
     HWY_DYNAMIC_DISPATCH(LookAtFacets)
     (grid, detector.kind() == DetectorKind::EqualArea, detector.rows(), detector.columns(),
-     mirror_x, direction, j, upper, row);
+     mirror_x, direction, unit, j, lower, upper, known);
 }
 
 }  // namespace asperity

@@ -6,6 +6,7 @@
 #include <asperity/tracing/padded_heights.h>
 #include <asperity/tracing/wide.h>
 #include <asperity/tracing/wide_grid.h>
+#include <asperity/tracing/wide_launch.h>
 
 namespace asperity {
 
@@ -22,19 +23,20 @@ void find_cells(const Escapes& escapes, const Detector& detector, float mirror_x
                 const PerPath<float>* cos_phi, const PerPath<float>* sin_phi,
                 PerPath<std::int32_t>& cells);
 
-/// What becomes of parallel light on the facets of a row, one value each; may be written up to
-/// kSlack values beyond the row.
+/// What becomes of parallel light on the lower or upper facets of a row of cells, one value each;
+/// may be written up to kSlack values beyond the row.
 struct FacetRow {
     static constexpr std::size_t kSlack = 16;
     std::int32_t* cells;  ///< of the detector: where the facet sends it
     /// Of a facet that lies in the light as a whole and mirrors it out for certain: what it takes,
-    /// as a multiple of what falls onto half a cell. Of others: 0.
-    float* flux;
-    float* cosine;  ///< as of reflect_paths
+    /// in units of 1 / unit of what falls onto half a cell. Of others: 0.
+    std::int32_t* flux;
+    float* cosine;  ///< as of reflect_paths; null: not asked for
 };
-/// Looks at the lower or upper facets of the row `j` of cells in parallel light along `d`, both in
-/// the frame of the tracer.
-void look_at_facets(const WideGrid& grid, const Detector& detector, float mirror_x, Vec3 d, int j,
-                    bool upper, const FacetRow& row);
+/// Looks at both facets of the cells of row `j` in parallel light along `d`, in the frame of the
+/// tracer. Sets CountedFacets' bits in `known`, which has kSlack bytes more.
+void look_at_facets(const WideGrid& grid, const Detector& detector, float mirror_x, Vec3 d,
+                    float unit, int j, const FacetRow& lower, const FacetRow& upper,
+                    std::uint8_t* known);
 
 }  // namespace asperity

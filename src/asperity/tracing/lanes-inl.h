@@ -108,57 +108,67 @@ HWY_INLINE Ints index_of(Ints vertex, std::int32_t pitch) {
 #endif
 }
 
-/// fetch(index), lane by lane; it returns a float or a byte, as T says.
-template <class T, class Fetch>
-HWY_INLINE auto gather_by_lane(Ints index, Fetch fetch) {
-#if HWY_TARGET == HWY_AVX2
-    // Taken apart by hand: on most processors faster than the gather instruction, which is
-    // microcoded or slowed down by mitigations.
-    const __m128i low = _mm256_castsi256_si128(index.raw);
-    const __m128i high = _mm256_extracti128_si256(index.raw, 1);
-    const std::int64_t i01 = _mm_cvtsi128_si64(low), i23 = _mm_extract_epi64(low, 1);
-    const std::int64_t i45 = _mm_cvtsi128_si64(high), i67 = _mm_extract_epi64(high, 1);
-    const auto first = [&](std::int64_t pair) { return fetch(static_cast<std::int32_t>(pair)); };
-    const auto second = [&](std::int64_t pair) { return fetch(pair >> 32); };
-    if constexpr (std::is_same_v<T, float>) {
-        return Floats{_mm256_setr_ps(first(i01), second(i01), first(i23), second(i23), first(i45),
-                                     second(i45), first(i67), second(i67))};
-    } else {
-        __m128i bytes = _mm_cvtsi32_si128(first(i01));
-        bytes = _mm_insert_epi8(bytes, second(i01), 1);
-        bytes = _mm_insert_epi8(bytes, first(i23), 2);
-        bytes = _mm_insert_epi8(bytes, second(i23), 3);
-        bytes = _mm_insert_epi8(bytes, first(i45), 4);
-        bytes = _mm_insert_epi8(bytes, second(i45), 5);
-        bytes = _mm_insert_epi8(bytes, first(i67), 6);
-        bytes = _mm_insert_epi8(bytes, second(i67), 7);
-        return Ints{_mm256_cvtepu8_epi32(bytes)};
-    }
-#else
-    alignas(64) std::int32_t at[kLanes];
-    hn::Store(index, kInt, at);
-    using Out = std::conditional_t<std::is_same_v<T, float>, float, std::int32_t>;
-    alignas(64) Out out[kLanes];
-    for (std::size_t lane = 0; lane < hn::Lanes(kFloat); ++lane) out[lane] = fetch(at[lane]);
-    return hn::Load(hn::Rebind<Out, FloatTag>(), out);
+/// The lanes of a vector in memory, to be read one by one.
+struct LaneArray {
+    alignas(64) std::int32_t values[kLanes];
+    HWY_INLINE explicit LaneArray(Ints x) {
+        hn::Store(x, kInt, values);
+#if HWY_COMPILER_GCC || HWY_COMPILER_CLANG
+        asm("" : "+m"(values));  // or the compiler takes the vector apart again, which is slower
 #endif
-}
+    }
+    HWY_INLINE std::ptrdiff_t operator[](std::size_t lane) const {
+        return values[lane];
+    }
+};
+
 HWY_INLINE Floats gather(const float* from, Ints index) {
 #if HWY_TARGET <= HWY_AVX3
     return hn::GatherIndex(kFloat, from, index);
 #else
-    return gather_by_lane<float>(index, [from](std::int64_t at) { return from[at]; });
+    // Taken apart by hand: on most processors faster than the gather instruction, which is
+    // microcoded or slowed down by mitigations
+    const LaneArray at(index);
+    alignas(64) float out[kLanes];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) out[lane] = from[at[lane]];
+    return hn::Load(kFloat, out);
 #endif
 }
 HWY_INLINE Ints gather_bytes(const std::uint8_t* from, Ints index) {
-    return gather_by_lane<std::uint8_t>(index, [from](std::int64_t at) { return int{from[at]}; });
+    const LaneArray at(index);
+    const hn::Rebind<std::uint8_t, IntTag> bytes;
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
+    // Two chains of insertions, so that they run side by side
+    constexpr std::size_t kHalf = kLanes == 16 ? 8 : kLanes;
+    const auto chain = [&](std::size_t first) HWY_ATTR {
+        __m128i b = _mm_cvtsi32_si128(from[at[first]]);
+        b = _mm_insert_epi8(b, from[at[first + 1]], 1);
+        b = _mm_insert_epi8(b, from[at[first + 2]], 2);
+        b = _mm_insert_epi8(b, from[at[first + 3]], 3);
+        if constexpr (kHalf == 8) {
+            b = _mm_insert_epi8(b, from[at[first + 4]], 4);
+            b = _mm_insert_epi8(b, from[at[first + 5]], 5);
+            b = _mm_insert_epi8(b, from[at[first + 6]], 6);
+            b = _mm_insert_epi8(b, from[at[first + 7]], 7);
+        }
+        return b;
+    };
+    __m128i all_bytes = chain(0);
+    if constexpr (kLanes == 16) all_bytes = _mm_unpacklo_epi64(all_bytes, chain(8));
+    return hn::PromoteTo(kInt, hn::Vec<decltype(bytes)>{all_bytes});
+#else
+    std::uint8_t out[kLanes];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) out[lane] = from[at[lane]];
+    return hn::PromoteTo(kInt, hn::LoadU(bytes, out));
+#endif
 }
 
 /// Vectors of the four fields of records.
 struct Fields {
     Floats a, b, c, d;
 };
-/// record(lane) for all lanes, each four values: one field of all lanes a vector, by 4 x 4 transposes.
+/// record(lane) for all lanes, each four values: one field of all lanes a vector, by 4 x 4
+/// transposes.
 template <class Record>
 HWY_INLINE Fields fields_of(Record record) {
     // The records of lanes k, k + 4, ... side by side
@@ -185,18 +195,6 @@ HWY_INLINE Fields fields_of(Record record) {
             hn::BitCast(kFloat, hn::InterleaveLower(kPair, high01, high23)),
             hn::BitCast(kFloat, hn::InterleaveUpper(kPair, high01, high23))};
 }
-
-/// The lanes of a vector in memory, to be read one by one.
-struct LaneArray {
-    alignas(64) std::int32_t values[kLanes];
-    HWY_INLINE explicit LaneArray(Ints x) {
-        hn::Store(x, kInt, values);
-#if HWY_COMPILER_GCC || HWY_COMPILER_CLANG
-        asm("" : "+m"(values));  // or the compiler takes the vector apart again, which is slower
-#endif
-    }
-    HWY_INLINE std::ptrdiff_t operator[](std::size_t lane) const { return values[lane]; }
-};
 
 /// The four 32-bit fields of records[index], with one load a lane.
 template <class Record>

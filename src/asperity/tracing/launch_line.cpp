@@ -5,16 +5,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace asperity {
 
-void LaunchLine::start(const PaddedHeights& heights, double u, double v, double z, Vec3 d) {
+void LaunchLine::start(const PaddedHeights& heights, bool swapped, double u, double v, double z,
+                       Vec3 d) {
     rounds_.clear();
     triangles_.clear();
-    pitch_ = heights.pitch();
-    z_ = z;
+    swapped_ = swapped;
+    pitch_ = swapped ? kSwappedPitch : heights.pitch();
     du_ = d.x / heights.dx();
     dv_ = d.y / heights.dy();
+    if (swapped) {
+        std::swap(u, v);
+        std::swap(du_, dv_);
+    }
     const double rate = d.z / (du_ * du_ + dv_ * dv_);
     k_x_ = du_ * rate;
     k_y_ = dv_ * rate;
@@ -48,45 +54,54 @@ void LaunchLine::start(const PaddedHeights& heights, double u, double v, double 
     a_ = {a_x, a_y, du_ * (a_y - v) - dv_ * (a_x - u), z + k_x_ * (a_x - u) + k_y_ * (a_y - v)};
 }
 
-void LaunchLine::add_triangle(const Vertex& a, const Vertex& b, const Vertex& c) {
+LaunchLine::Edge LaunchLine::edge(const Round& round, const Vertex& left,
+                                  const Vertex& right) const {
+    const auto index = [&](const Vertex& v) {
+        return (v.y - round.first_y) * pitch_ + (v.x - round.first_x);
+    };
+    const double width = left.w - right.w, of_left = -right.w / width, of_right = left.w / width;
+    return {index(left), index(right), static_cast<float>(of_left), static_cast<float>(of_right),
+            static_cast<float>(round.z - of_left * left.z - of_right * right.z)};
+}
+
+void LaunchLine::add_triangle(Round& r, const Vertex& a, const Vertex& b, const Vertex& c) {
     // Of two of the three corners x is the same, and of two y; where these meet is the right angle
     const int x = a.x == b.x || a.x == c.x ? a.x : b.x, y = a.y == b.y || a.y == c.y ? a.y : b.y;
     const Vertex& corner = a.x == x && a.y == y ? a : b.x == x && b.y == y ? b : c;
     const bool upper = a.x + b.x + c.x < 3 * x;
-    triangles_.push_back({pack_vertex(x, y), upper ? -1.0f : 1.0f, static_cast<float>(corner.w),
-                          static_cast<float>(corner.z)});
+    triangles_.push_back({swapped_ ? pack_vertex(y, x) : pack_vertex(x, y), upper ? -1.0f : 1.0f,
+                          static_cast<float>(swapped_ ? -corner.w : corner.w),
+                          static_cast<float>(r.z - corner.z)});
+    const Cell cell{upper ? x - 1 : x, upper ? y - 1 : y};
+    const Cell& last = r.cells[r.cell_count > 0 ? r.cell_count - 1 : 0];
+    if (r.cell_count == 0 || cell.x != last.x || cell.y != last.y) r.cells[r.cell_count++] = cell;
 }
 
 void LaunchLine::add_round() {
     Round& r = rounds_.emplace_back();
     const Vertex step_ab = step_x_ - step_y_;
     Vertex b = a_ + step_ab;
-    r.first_x = a_.x;
-    r.first_y = a_.y;
-    r.edges[0] = edge(r, a_, b);
-    add_triangle(a_, b, a_ - step_y_);
-    r.lowest_x = std::min(a_.x, b.x);
-    r.lowest_y = std::min(a_.y, b.y);
-    int highest_y = std::max(a_.y, b.y);
+    r.first_x = r.lowest_x = a_.x;
+    r.first_y = r.lowest_y = a_.y;
+    r.z = a_.z;
+    const auto add = [&](const Edge& edge, const Vertex& v0, const Vertex& v1, const Vertex& v2) {
+        r.edges[triangles_.size() % kEdges] = edge;
+        add_triangle(r, v0, v1, v2);
+        r.lowest_x = std::min({r.lowest_x, v0.x, v1.x, v2.x});
+        r.lowest_y = std::min({r.lowest_y, v0.y, v1.y, v2.y});
+    };
+    add(edge(r, a_, b), a_, b, a_ - step_y_);
     for (int n = 0; n < kSteps; ++n) {
         // Out of the second triangle of the rhombus, over a side edge ...
         const Vertex c = a_ + step_x_;
         const bool right = c.w < 0;
-        r.edges[2 * n + 1] = right ? edge(r, a_, c) : edge(r, c, b);
-        add_triangle(a_, b, c);
+        add(right ? edge(r, a_, c) : edge(r, c, b), a_, b, c);
         // ... and out of the first one of the next rhombus
         a_ = a_ + (right ? step_y_ : step_x_);
         b = a_ + step_ab;
-        r.edges[2 * n + 2] = edge(r, a_, b);
-        add_triangle(a_, b, a_ - step_y_);
-        r.lowest_x = std::min({r.lowest_x, c.x, a_.x, b.x});
-        r.lowest_y = std::min({r.lowest_y, c.y, a_.y, b.y});
-        highest_y = std::max({highest_y, c.y, a_.y, b.y});
+        add(edge(r, a_, b), a_, b, a_ - step_y_);
     }
-    r.rows = highest_y - r.lowest_y + 1;
-    // Rays go down, so they are lowest at the end; a little less for rounding to float
-    const double end = (b.z * a_.w - a_.z * b.w) / (a_.w - b.w);
-    r.lowest_z = static_cast<float>(end - 1e-5 * (std::abs(end) + std::abs(z_ - end)));
+    r.sunk = static_cast<float>(r.z - a_.z);
 }
 
 }  // namespace asperity

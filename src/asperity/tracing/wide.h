@@ -61,7 +61,7 @@ struct FacetPoints {
     PerPath<float> u, v;                    ///< from O, in cells, along side * x and side * y
     PerPath<float> height, rise_u, rise_v;  ///< of O, and from there to the other two corners
     PerPath<float> x, y, z;                 ///< direction the path came along; not of parallel rays
-    PerPath<std::int32_t> path;             ///< as in Directions; of parallel rays their number
+    PerPath<std::int32_t> path;             ///< as in Directions; not of parallel rays
 };
 
 /// Paths under way between the facets; see wide_walk-inl.h.
@@ -81,7 +81,6 @@ struct ParallelHits {
     std::size_t count = 0;
     PerPath<std::int32_t> corner;
     PerPath<float> side, w, z;
-    PerPath<std::int32_t> ray;
 };
 
 /// Paths that meet nothing any more: their directions, and for finite patches where they are, in

@@ -16,7 +16,7 @@
 #if HWY_ONCE
 namespace asperity {
 
-HWY_EXPORT(LaunchSideBySide);
+HWY_EXPORT(LaunchInLines);
 HWY_EXPORT(SortLaunched);
 HWY_EXPORT(LaunchStraightDown);
 HWY_EXPORT(PartFree);
@@ -26,9 +26,11 @@ HWY_EXPORT(Release);
 HWY_EXPORT(Land);
 HWY_EXPORT(LandParallel);
 
-void launch_side_by_side(const LaunchPlace& place, LaunchLine& line, const LaunchedRow& row,
-                         const CountedFacets& known, LaunchHits& hits, std::size_t& counted) {
-    HWY_DYNAMIC_DISPATCH(LaunchSideBySide)(place, line, row, known, hits, counted);
+bool launch_in_lines(const WideGrid& grid, const PaddedHeights& heights, LaunchLine& line,
+                     LaunchStripe& stripe, const CountedFacets& known, std::size_t room,
+                     LaunchHits& hits, std::size_t& counted) {
+    return HWY_DYNAMIC_DISPATCH(LaunchInLines)(grid, heights, line, stripe, known, room, hits,
+                                               counted);
 }
 void sort_launched(const WideGrid& grid, const LaunchLine& line, const LaunchHits& launched,
                    const CountedFacets& known, ParallelHits& hits, std::size_t& counted) {

@@ -30,8 +30,9 @@ struct PathWaveWork {
 // The kernels, for the instruction set of this processor; each is told where it is written.
 
 /// wide_launch-inl.h; `counted` grows by the rays onto counted facets.
-void launch_side_by_side(const LaunchPlace& place, LaunchLine& line, const LaunchedRow& row,
-                         const CountedFacets& known, LaunchHits& hits, std::size_t& counted);
+bool launch_in_lines(const WideGrid& grid, const PaddedHeights& heights, LaunchLine& line,
+                     LaunchStripe& stripe, const CountedFacets& known, std::size_t room,
+                     LaunchHits& hits, std::size_t& counted);
 void sort_launched(const WideGrid& grid, const LaunchLine& line, const LaunchHits& launched,
                    const CountedFacets& known, ParallelHits& hits, std::size_t& counted);
 void launch_straight_down(const WideGrid& grid, float u, float v, const LaunchedRow& row,

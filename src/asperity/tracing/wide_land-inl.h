@@ -121,7 +121,6 @@ void LandParallel(const WideGrid& grid, const ParallelHits& hits, const Vec3& di
             const Fallen fallen{cell_of(load(hits.corner, k), side), negative(side),
                                 load(hits.w, k), load(hits.z, k), line};
             land_at(ground, fallen, first_lanes(k, hits.count), points, k);
-            store(load(hits.ray, k), points.path, k);
         }
     });
     points.count = hits.count;

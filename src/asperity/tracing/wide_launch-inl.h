@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The first hits of rays launched side by side: no gathers, the way is known (launch_line.h).
+// The first hits of parallel light: no gathers, the way is known (launch_line.h), and one step
+// along a line serves all its rays. docs/performance.md, "Light in lines".
 
 #if defined(ASPERITY_WIDE_LAUNCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ASPERITY_WIDE_LAUNCH_INL_H
@@ -9,36 +10,66 @@
 #define ASPERITY_WIDE_LAUNCH_INL_H
 #endif
 
-#include <asperity/tracing/launch_line.h>
-#include <asperity/tracing/row_tops.h>
 #include <asperity/tracing/wide_land-inl.h>
+
+#include <limits>
 
 HWY_BEFORE_NAMESPACE();
 namespace asperity::HWY_NAMESPACE {
 
-/// Vectors of rays that fly side by side; constants are fetched once for all of them.
+/// Vectors of lines that lie side by side.
 constexpr int kVectors = kLaunchGroup / static_cast<int>(kLanes);
 
-/// The number of the first edge of the round at which each ray is below the surface, or kEdges;
-/// `at` points to the first ray's first vertex. Backwards, so that the first one wins.
-HWY_INLINE void find_first_edges(const LaunchLine::Round& round, const float* at,
-                                 Floats (&first)[kVectors]) {
-    for (Floats& f : first) f = hn::BitCast(kFloat, all(LaunchLine::kEdges));
-    for (int n = LaunchLine::kEdges - 1; n >= 0; --n) {
+/// By edge of the round and line: rays that enter the round no higher than this have met the
+/// surface before the edge or there. Grows from edge to edge.
+using Shade = Floats[LaunchLine::kEdges][kVectors];
+constexpr int kLastEdge = LaunchLine::kEdges - 1;
+
+/// Goes along the edges of a round from `begin` on; `at` points to the first line's first vertex.
+HWY_INLINE void find_shade(const LaunchLine::Round& round, int begin, const float* at,
+                           const float* before, Shade& shade) {
+    Floats highest[kVectors];
+    for (std::size_t k = 0; k < kVectors; ++k) highest[k] = hn::Load(kFloat, before + k * kLanes);
+    for (int n = begin; n < LaunchLine::kEdges; ++n) {
         const LaunchLine::Edge& edge = round.edges[n];
-        const Floats w_left = all(edge.w_left), w_right = all(edge.w_right),
-                     limit = all(edge.limit), number = hn::BitCast(kFloat, all(n));
+        const Floats of_left = all(edge.share_left), of_right = all(edge.share_right),
+                     sunk = all(edge.sunk);
         const float* left = at + edge.left;
         const float* right = at + edge.right;
         for (std::size_t k = 0; k < kVectors; ++k) {
-            const Floats above =
-                hn::Sub(hn::Sub(hn::Mul(hn::LoadU(kFloat, left + k * kLanes), w_right),
-                                hn::Mul(hn::LoadU(kFloat, right + k * kLanes), w_left)),
-                        limit);
-            first[k] = select_by_sign(above, number, first[k]);
+            const Floats height = hn::Add(hn::Mul(hn::LoadU(kFloat, left + k * kLanes), of_left),
+                                          hn::Mul(hn::LoadU(kFloat, right + k * kLanes), of_right));
+            highest[k] = hn::Max(highest[k], hn::Add(height, sunk));
+            shade[n][k] = highest[k];
         }
     }
 }
+
+/// The samples that a round of all lines may ask for, with x and y exchanged.
+struct SwappedHeights {
+    static constexpr int kRows = LaunchLine::kReach + 1;
+    static constexpr int kPitch = LaunchLine::kSwappedPitch;
+    static_assert(kPitch >= kLaunchGroup + LaunchLine::kReach && kPitch % kLanes == 0);
+    static_assert(kPitch <= PaddedHeights::kMargin);
+    alignas(64) float values[(kRows + 3) * kPitch];
+
+    /// Of the rows from `begin` to `end`; `from` points to the sample of least x and y.
+    HWY_INLINE SwappedHeights(const float* from, std::ptrdiff_t pitch, int begin, int end) {
+        const hn::CappedTag<float, 4> four;
+        for (std::ptrdiff_t y = 0; y < kPitch; y += kLanes)
+            for (std::ptrdiff_t x = begin; x < end; x += 4) {
+                const float* corner = from + y * pitch + x;
+                const Fields f = fields_of([&](std::size_t lane) HWY_ATTR {
+                    return hn::LoadU(four, corner + static_cast<std::ptrdiff_t>(lane) * pitch);
+                });
+                float* to = values + x * kPitch + y;
+                hn::Store(f.a, kFloat, to);
+                hn::Store(f.b, kFloat, to + kPitch);
+                hn::Store(f.c, kFloat, to + 2 * kPitch);
+                hn::Store(f.d, kFloat, to + 3 * kPitch);
+            }
+    }
+};
 
 /// Remainder that is never negative; mostly there is nothing to do.
 HWY_INLINE int wrapped(int index, int count) {
@@ -47,101 +78,255 @@ HWY_INLINE int wrapped(int index, int count) {
     return rest < 0 ? rest + count : rest;
 }
 
-/// Whether all rays of a group fly above everything in a round that begins at the sample (x, y).
-HWY_INLINE bool flies_above(const RowTops& tops, const LaunchLine::Round& round, int x, int y) {
-    static_assert(kLaunchGroup - 1 + LaunchLine::kReach <=
-                  RowTops::kPiece * (RowTops::kPieces - 1));
-    static_assert(LaunchLine::kReach + 1 <= RowTops::kRowsMore && RowTops::kPieces == 8);
-    const hn::CappedTag<float, 8> pieces;
-    const std::size_t lanes = hn::Lanes(pieces);
-    const float* from = tops.from(x, y);
-    auto top = hn::LoadU(pieces, from);
-    for (int row = 0; row < round.rows; ++row)
-        for (std::size_t k = 0; k < RowTops::kPieces; k += lanes)
-            top = hn::Max(top, hn::LoadU(pieces, from + row * tops.pitch() + k));
-    return hn::AllTrue(pieces, hn::Le(top, hn::Set(pieces, round.lowest_z)));
-}
+/// A stripe of lines of rays on its way down.
+class Descent {
+  public:
+    HWY_INLINE Descent(const WideGrid& grid, const PaddedHeights& heights, LaunchLine& line,
+                       LaunchStripe& stripe, const CountedFacets& known)
+        : grid_(grid),
+          heights_(heights),
+          line_(line),
+          stripe_(stripe),
+          known_(known),
+          cells_across_(line.swapped() ? heights.cells_y() : heights.cells_x()),
+          cells_along_(line.swapped() ? heights.cells_x() : heights.cells_y()) {}
 
-/// A group of kLaunchGroup rays from cell (i, j) on, as far as they are `open`; hits are appended.
-HWY_INLINE void launch_group(const LaunchPlace& place, LaunchLine& line, int i, int j, int first,
-                             Mask (&open)[kVectors], LaunchHits& hits) {
-    static_assert(kLaunchGroup + LaunchLine::kReach <= PaddedHeights::kMargin);
-    const PaddedHeights& heights = *place.heights;
-    bool flying = true;
-    for (std::size_t r = 0; flying; ++r) {
-        const LaunchLine::Round& round = line.round(r);
-        const int x = wrapped(i + round.lowest_x, heights.cells_x());
-        const int y = wrapped(j + round.lowest_y, heights.cells_y());
-        if (flies_above(*place.tops, round, x, y)) continue;
-
-        // Where the first ray's cell would be if its way led here without leaving the tile
-        const int start_x = x - round.lowest_x, start_y = y - round.lowest_y;
-        const float* at = heights.origin() +
-                          static_cast<std::ptrdiff_t>(start_y + round.first_y) * heights.pitch() +
-                          (start_x + round.first_x);
-        Floats first_edges[kVectors];
-        find_first_edges(round, at, first_edges);
-        flying = false;
-        for (int n = 0; n < kVectors; ++n) {
-            const Ints edge = hn::BitCast(kInt, first_edges[n]);
-            const Mask below = hn::RebindMask(kFloat, hn::Lt(edge, all(LaunchLine::kEdges)));
-            const Mask hit = hn::And(open[n], below);
-            if (!hn::AllFalse(kFloat, hit)) {
-                const Ints lane = hn::Iota(kInt, n * static_cast<int>(kLanes));
-                const Ints cell_x = hn::Add(all(start_x - place.grid->middle_x), lane);
-                const Ints cell_y = all(pack_vertex(0, start_y - place.grid->middle_y));
-                const Packer pack(hit);
-                pack(hn::Add(all(static_cast<std::int32_t>(r) * LaunchLine::kEdges), edge),
-                     hits.triangle, hits.count);
-                pack(hn::Or(hn::And(cell_x, all(0xffff)), cell_y), hits.cell, hits.count);
-                pack(hn::Add(all(first), lane), hits.ray, hits.count);
-                hits.count += pack.count;
-                open[n] = hn::AndNot(hit, open[n]);
+    /// Goes on until all rays have landed: true, or until `room` of them have.
+    HWY_INLINE bool go(std::size_t room, LaunchHits& hits, std::size_t& counted) {
+        bool count_only = all_counted(line_.round(stripe_.round));
+        for (bool next; flies(); ++stripe_.round, count_only = next) {
+            next = all_counted(line_.round(stripe_.round + 1));
+            if (!next) fetch(line_.round(stripe_.round + 1));
+            const LaunchLine::Round& round = line_.round(stripe_.round);
+            const Place place = place_of(round);
+            Shade shade;
+            if (count_only) {
+                look_at(round, place, kLastEdge, shade);
+                counted += count(round, shade[kLastEdge]);
+            } else {
+                look_at(round, place, 0, shade);
+                if (!land(round, place, shade, room, hits)) return false;
             }
-            flying = flying || !hn::AllFalse(kFloat, open[n]);
+            // Rays enter the next round lower down
+            for (std::size_t k = 0; k < kVectors; ++k)
+                hn::Store(hn::Sub(shade[kLastEdge][k], all(round.sunk)), kFloat,
+                          stripe_.shade + k * kLanes);
         }
+        return true;
     }
-}
 
-/// Leaves those of `count` rays open that have to fly, and counts the others; true if there are
-/// any.
-HWY_INLINE bool find_open(const CountedFacets& known, int i, int j, int count,
-                          Mask (&open)[kVectors], std::size_t& counted) {
-    bool any = false;
-    for (int n = 0; n < kVectors; ++n) {
-        const std::size_t lane = static_cast<std::size_t>(n) * kLanes;
-        open[n] = first_lanes(lane, static_cast<std::size_t>(count));
-        if (known.cells) {
-            const hn::Rebind<std::uint8_t, IntTag> bytes;
+  private:
+    /// Where a round lies on the tile, in the frame of the line: its lowest vertex, and where the
+    /// first line's start would be if its way led there without leaving the tile.
+    struct Place {
+        int lowest_x, lowest_y, x, y;
+    };
+    HWY_INLINE Place place_of(const LaunchLine::Round& round) const {
+        const int x = wrapped(stripe_.first + round.lowest_x, cells_across_);
+        const int y = wrapped(round.lowest_y, cells_along_);
+        return {x, y, x - round.lowest_x, y - round.lowest_y};
+    }
+
+    HWY_INLINE bool flies() const {
+        bool any = false;
+        for (std::size_t k = 0; k < kVectors; ++k)
+            any = any || !hn::AllFalse(kFloat, left(k, hn::Load(kInt, stripe_.next + k * kLanes)));
+        return any;
+    }
+    /// Lines of a vector that hold a ray of this number.
+    HWY_INLINE Mask left(std::size_t k, Ints number) const {
+        return hn::RebindMask(kFloat, hn::Lt(number, hn::Load(kInt, stripe_.rays + k * kLanes)));
+    }
+
+    /// Brings into the cache what a round, and the paths that go on from it, will look at first.
+    HWY_INLINE void fetch(const LaunchLine::Round& round) const {
+        constexpr int kFloatsOfLine = 16, kBlocksOfLine = 4;
+        const Place place = place_of(round);
+        const bool swapped = line_.swapped();
+        const int x = swapped ? place.lowest_y : place.lowest_x,
+                  y = swapped ? place.lowest_x : place.lowest_y;
+        const int across = kLaunchGroup + LaunchLine::kReach, along = LaunchLine::kReach;
+        const int width = swapped ? along : across, depth = swapped ? across : along;
+        for (int j = y; j <= y + depth; ++j) {
+            const float* row = heights_.origin() + std::ptrdiff_t{j} * heights_.pitch();
+            for (int i = x; i < x + width + kFloatsOfLine; i += kFloatsOfLine)
+                __builtin_prefetch(row + i);
+        }
+        if (!grid_.horizon_pays) return;
+        const int shift = grid_.pool_shift;
+        for (int j = (y - grid_.middle_y) >> shift; j <= (y + depth - grid_.middle_y) >> shift; ++j)
+            for (int i = (x - grid_.middle_x) >> shift;
+                 i < ((x + width - grid_.middle_x) >> shift) + kBlocksOfLine; i += kBlocksOfLine)
+                __builtin_prefetch(grid_.horizon + (std::ptrdiff_t{j} * grid_.horizon_pitch + i) *
+                                                       Horizon::kSectors);
+    }
+
+    /// Whether all lines cross nothing but counted facets.
+    HWY_INLINE bool all_counted(const LaunchLine::Round& round) const {
+        if (!known_.cells) return false;
+        const Place place = place_of(round);
+        const hn::CappedTag<std::uint8_t, kLaunchGroup> bytes;
+        const auto both = hn::Set(bytes, CountedFacets::kLower | CountedFacets::kUpper);
+        for (int n = 0; n < round.cell_count; ++n) {
+            // From within the tile on; beyond its end it begins again
+            const int row = place.y + round.cells[n].y;
             const std::uint8_t* at =
-                known.cells + static_cast<std::ptrdiff_t>(j) * known.pitch + i + lane;
-            const Ints byte = hn::PromoteTo(kInt, hn::LoadU(bytes, at));
-            const Mask sure = hn::And(
-                open[n], hn::RebindMask(kFloat, hn::Eq(hn::And(byte, all(CountedFacets::kOpen)),
-                                                       hn::Zero(kInt))));
-            counted += hn::CountTrue(kFloat, sure);
-            open[n] = hn::AndNot(sure, open[n]);
+                known_.cells +
+                std::ptrdiff_t{row < cells_along_ ? row : row - cells_along_} * known_.pitch +
+                (place.x + round.cells[n].x);
+            for (int k = 0; k < kLaunchGroup; k += static_cast<int>(hn::Lanes(bytes)))
+                if (!hn::AllTrue(bytes, hn::Eq(hn::And(hn::LoadU(bytes, at + k), both), both)))
+                    return false;
         }
-        any = any || !hn::AllFalse(kFloat, open[n]);
+        return true;
     }
-    return any;
-}
 
-void LaunchSideBySide(const LaunchPlace& place, LaunchLine& line, const LaunchedRow& row,
-                      const CountedFacets& known, LaunchHits& hits, std::size_t& counted) {
-    for (int k = 0; k < row.count; k += kLaunchGroup) {
-        const int i = row.i + k;
-        Mask open[kVectors];
-        if (find_open(known, i, row.j, std::min(row.count - k, kLaunchGroup), open, counted))
-            launch_group(place, line, i, row.j, row.first + k, open, hits);
+    /// Finds the shade of the edges from `begin` on.
+    HWY_INLINE void look_at(const LaunchLine::Round& round, const Place& place, int begin,
+                            Shade& shade) const {
+        const std::ptrdiff_t pitch = heights_.pitch();
+        const int right = round.first_x - round.lowest_x, up = round.first_y - round.lowest_y;
+        if (line_.swapped()) {
+            // The last edge alone asks for two rows at most
+            const LaunchLine::Edge& last = round.edges[kLastEdge];
+            const int row = up + floor_rows(std::min(last.left, last.right) + right);
+            const SwappedHeights part(heights_.origin() + place.lowest_x * pitch + place.lowest_y,
+                                      pitch, begin == kLastEdge ? row : 0,
+                                      begin == kLastEdge ? row + 2 : SwappedHeights::kRows);
+            find_shade(round, begin, part.values + up * SwappedHeights::kPitch + right,
+                       stripe_.shade, shade);
+        } else {
+            const float* lowest = heights_.origin() + place.lowest_y * pitch + place.lowest_x;
+            find_shade(round, begin, lowest + up * pitch + right, stripe_.shade, shade);
+        }
     }
+    /// The row of a sample, seen from the row of the lowest one.
+    HWY_INLINE static int floor_rows(int sample) {
+        constexpr int kPitch = SwappedHeights::kPitch;
+        return sample >= 0 ? sample / kPitch : -((kPitch - 1 - sample) / kPitch);
+    }
+
+    /// Counts the rays that land in a round; they need not be told apart.
+    HWY_INLINE std::size_t count(const LaunchLine::Round& round, const Floats (&shade)[kVectors]) {
+        const hn::Half<FloatTag> half;
+        const hn::Rebind<double, decltype(half)> wide;
+        const hn::Rebind<std::int32_t, decltype(half)> number;
+        alignas(64) float highest[kLaunchGroup];
+        for (std::size_t k = 0; k < kVectors; ++k)
+            hn::Store(shade[k], kFloat, highest + k * kLanes);
+        auto sum = hn::Zero(number);
+        for (std::size_t k = 0; k < kLaunchGroup; k += hn::Lanes(half)) {
+            const auto next = hn::Load(number, stripe_.next + k);
+            const auto above =
+                hn::Sub(hn::PromoteTo(wide, hn::Load(half, highest + k)), hn::Set(wide, round.z));
+            const auto last = hn::Sub(hn::Mul(above, hn::Load(wide, stripe_.per_spacing + k)),
+                                      hn::Load(wide, stripe_.phase + k));
+            const auto end =
+                hn::Min(hn::Max(hn::Add(last, hn::Set(wide, 1.0)), hn::PromoteTo(wide, next)),
+                        hn::PromoteTo(wide, hn::Load(number, stripe_.rays + k)));
+            const auto behind = hn::DemoteTo(number, end);
+            sum = hn::Add(sum, hn::Sub(behind, next));
+            hn::Store(behind, number, stripe_.next + k);
+        }
+        return static_cast<std::size_t>(hn::GetLane(hn::SumOfLanes(number, sum)));
+    }
+
+    /// Next rays of the lines: the height at which they enter a round, or infinity where all have
+    /// landed, and by how much the one behind enters higher.
+    struct Rays {
+        Floats height[kVectors], step[kVectors];
+    };
+    HWY_INLINE void enter(const LaunchLine::Round& round, Rays& rays) const {
+        const hn::Half<FloatTag> half;
+        const hn::Rebind<double, decltype(half)> wide;
+        const hn::Rebind<std::int32_t, decltype(half)> number;
+        alignas(64) float height[kLaunchGroup], step[kLaunchGroup];
+        for (std::size_t k = 0; k < kLaunchGroup; k += hn::Lanes(half)) {
+            const auto n = hn::PromoteTo(wide, hn::Load(number, stripe_.next + k));
+            const auto spacing = hn::Load(wide, stripe_.spacing + k);
+            const auto above = hn::Mul(hn::Add(hn::Load(wide, stripe_.phase + k), n), spacing);
+            hn::Store(hn::DemoteTo(half, hn::Add(above, hn::Set(wide, round.z))), half, height + k);
+            hn::Store(hn::DemoteTo(half, spacing), half, step + k);
+        }
+        for (std::size_t k = 0; k < kVectors; ++k) {
+            rays.height[k] = select(left(k, hn::Load(kInt, stripe_.next + k * kLanes)),
+                                    hn::Load(kFloat, height + k * kLanes), none());
+            rays.step[k] = hn::Load(kFloat, step + k * kLanes);
+        }
+    }
+    HWY_INLINE static Floats none() { return all(std::numeric_limits<float>::infinity()); }
+
+    /// Lands rays, one of each line at a time, as long as any meets the surface in the round: true,
+    /// or until there is no room.
+    HWY_INLINE bool land(const LaunchLine::Round& round, const Place& place, const Shade& shade,
+                         std::size_t room, LaunchHits& hits) {
+        Rays rays;
+        enter(round, rays);
+        const bool swapped = line_.swapped();
+        const Ints first_cell =
+            all(swapped ? pack_vertex(place.y - grid_.middle_x, place.x - grid_.middle_y)
+                        : pack_vertex(place.x - grid_.middle_x, place.y - grid_.middle_y));
+        for (bool landing = true; landing;) {
+            if (hits.count + kLaunchGroup > room) return false;
+            landing = false;
+            for (std::size_t k = 0; k < kVectors; ++k) {
+                const Mask low = hn::Le(rays.height[k], shade[kLastEdge][k]);
+                if (hn::AllFalse(kFloat, low)) continue;
+                landing = true;
+                const Ints lane = hn::Iota(kInt, static_cast<std::int32_t>(k * kLanes));
+                const Ints cell =
+                    swapped ? hn::Add(first_cell, hn::ShiftLeft<16>(lane)) : plus(first_cell, lane);
+                pack_landed(shade, k, low, rays.height[k], cell, hits);
+                // The rays behind them come next
+                std::int32_t* next = stripe_.next + k * kLanes;
+                const Ints behind = hn::Add(hn::Load(kInt, next), only(low, all(1)));
+                hn::Store(behind, kInt, next);
+                rays.height[k] = select(
+                    low, select(left(k, behind), hn::Add(rays.height[k], rays.step[k]), none()),
+                    rays.height[k]);
+            }
+        }
+        return true;
+    }
+
+    /// Appends the rays of a vector of lines that are `low` enough to meet the surface.
+    HWY_INLINE void pack_landed(const Shade& shade, std::size_t k, Mask low, Floats height,
+                                Ints cell, LaunchHits& hits) const {
+        Ints triangle = all(static_cast<std::int32_t>(stripe_.round) * LaunchLine::kEdges);
+        for (int n = 0; n < kLastEdge; ++n)
+            triangle = select(hn::Gt(height, shade[n][k]), hn::Add(triangle, all(1)), triangle);
+        const Packer pack(low);
+        pack(triangle, hits.triangle, hits.count);
+        pack(cell, hits.cell, hits.count);
+        pack(height, hits.z, hits.count);
+        hits.count += pack.count;
+    }
+
+    const WideGrid& grid_;
+    const PaddedHeights& heights_;
+    LaunchLine& line_;
+    LaunchStripe& stripe_;
+    const CountedFacets& known_;
+    const int cells_across_, cells_along_;
+};
+
+bool LaunchInLines(const WideGrid& grid, const PaddedHeights& heights, LaunchLine& line,
+                   LaunchStripe& stripe, const CountedFacets& known, std::size_t room,
+                   LaunchHits& hits, std::size_t& counted) {
+    static_assert(kLaunchGroup + LaunchLine::kReach <= PaddedHeights::kMargin);
+    return Descent(grid, heights, line, stripe, known).go(room, hits, counted);
 }
 
 /// Lanes whose facets are counted ones.
 HWY_INLINE Mask is_counted(const WideGrid& grid, const Ground<true>& ground, Mask valid,
                            const CountedFacets& known, Ints corner, Floats side) {
-    const Ints cell = ground.wrap(cell_of(corner, side));
-    const Ints first = all(grid.middle_y * known.pitch + grid.middle_x);
+    Ints cell = ground.wrap(cell_of(corner, side));
+    int first_x = grid.middle_x, first_y = grid.middle_y;
+    if (known.swapped) {
+        cell = hn::Or(hn::ShiftLeft<16>(cell), hn::And(hn::ShiftRight<16>(cell), all(0xffff)));
+        std::swap(first_x, first_y);
+    }
+    const Ints first = all(first_y * known.pitch + first_x);
     const Ints byte =
         gather_bytes(known.cells, only(valid, hn::Add(index_of(cell, known.pitch), first)));
     const Ints bit = select(negative(side), all(CountedFacets::kUpper), all(CountedFacets::kLower));
@@ -168,8 +353,7 @@ void SortLaunched(const WideGrid& grid, const LaunchLine& line, const LaunchHits
         pack(corner, hits.corner, hits.count);
         pack(side, hits.side, hits.count);
         pack(triangle.c, hits.w, hits.count);
-        pack(triangle.d, hits.z, hits.count);
-        pack(load(launched.ray, k), hits.ray, hits.count);
+        pack(hn::Sub(load(launched.z, k), triangle.d), hits.z, hits.count);
         hits.count += pack.count;
     }
 }
@@ -213,7 +397,6 @@ void LaunchStraightDown(const WideGrid& grid, float u, float v, const LaunchedRo
         pack(hn::Sub(hn::LoadU(kFloat, at + k + step), height), points.rise_u, points.count);
         pack(hn::Sub(hn::LoadU(kFloat, at + k + step * std::ptrdiff_t{grid.pitch}), height),
              points.rise_v, points.count);
-        pack(hn::Add(lane, all(row.first)), points.path, points.count);
         points.count += pack.count;
     }
 }

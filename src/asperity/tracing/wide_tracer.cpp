@@ -27,12 +27,10 @@ WideTracer::WideTracer(const Heightfield& surface, Run& run)
       surface_cells_y_(surface.cells_y()),
       heights_(surface, run),
       horizon_(heights_, run),
-      grid_(heights_, horizon_) {
-    if (heights_.periodic()) tops_.emplace(heights_, run);
-}
+      grid_(heights_, horizon_) {}
 
 std::size_t WideTracer::memory_bytes() const {
-    return heights_.memory_bytes() + horizon_.memory_bytes() + (tops_ ? tops_->memory_bytes() : 0);
+    return heights_.memory_bytes() + horizon_.memory_bytes();
 }
 
 void WideTracer::clear(PathWave& wave) const {
@@ -40,12 +38,26 @@ void WideTracer::clear(PathWave& wave) const {
     wave.work_->parallel.count = 0;
 }
 
-void WideTracer::launch(LaunchLine& line, const LaunchedRow& row, const CountedFacets& known,
+bool WideTracer::lines_along_x(const Vec3& d) const {
+    return std::abs(d.x / heights_.dx()) > std::abs(d.y / heights_.dy());
+}
+
+void WideTracer::start(LaunchLine& line, double offset, const Vec3& d) const {
+    const double top = double{heights_.max_height()};
+    if (lines_along_x(d))
+        line.start(heights_, true, 0, offset, top, d);
+    else
+        line.start(heights_, false, offset, 0, top, d);
+}
+
+bool WideTracer::launch(LaunchLine& line, LaunchStripe& stripe, const CountedFacets& known,
                         PathWave& wave) const {
     LaunchHits& launched = wave.work_->launched;
     launched.count = 0;
-    launch_side_by_side({&grid_, &heights_, &*tops_}, line, row, known, launched, wave.counted);
+    const bool done = launch_in_lines(grid_, heights_, line, stripe, known,
+                                      kWave - this->launched(wave), launched, wave.counted);
     sort_launched(grid_, line, launched, known, wave.work_->parallel, wave.counted);
+    return done;
 }
 
 void WideTracer::launch_down(double u, double v, const LaunchedRow& row, const CountedFacets& known,

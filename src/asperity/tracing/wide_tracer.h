@@ -5,7 +5,6 @@
 #include <asperity/tracing/horizon.h>
 #include <asperity/tracing/launch_line.h>
 #include <asperity/tracing/padded_heights.h>
-#include <asperity/tracing/row_tops.h>
 #include <asperity/tracing/tracer.h>
 #include <asperity/tracing/wide.h>
 #include <asperity/tracing/wide_grid.h>
@@ -13,7 +12,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 
 namespace asperity {
@@ -78,13 +76,19 @@ class WideTracer {
 
     /// Forgets all paths of the wave.
     void clear(PathWave& wave) const;
-    /// Launches rays along the line from the cells (i, j), (i + 1, j) ... of a row and moves them
-    /// to their first facets: wave.points after land(), ray `first + k` for the k-th. Periodic
-    /// surfaces only; i, j inside. Rays onto facets that are only counted go to wave.counted
-    /// instead.
-    void launch(LaunchLine& line, const LaunchedRow& row, const CountedFacets& known,
+    /// Whether lines of light that travels along `d`, not straight down, lie beside each other in
+    /// y: it crosses more columns of cells than rows.
+    bool lines_along_x(const Vec3& d) const;
+    /// The line of light that starts `offset` in [0, 1] into a cell across it, from a border of the
+    /// tile on. Periodic surfaces only.
+    void start(LaunchLine& line, double offset, const Vec3& d) const;
+    /// Follows the rays of a stripe of such lines to their first facets, wave.points after land():
+    /// until all have landed, or no more fit in the wave. Returns whether all have. Rays onto
+    /// facets that are only counted go to wave.counted instead.
+    bool launch(LaunchLine& line, LaunchStripe& stripe, const CountedFacets& known,
                 PathWave& wave) const;
-    /// The same for rays straight down onto the place (u, v) of the cells.
+    /// The same for rays straight down onto the place (u, v) of the cells of a row; as many must
+    /// fit.
     void launch_down(double u, double v, const LaunchedRow& row, const CountedFacets& known,
                      PathWave& wave) const;
     /// Rays launched since the wave was cleared, but for those counted; at most kWave may be.
@@ -115,7 +119,6 @@ class WideTracer {
     const PaddedHeights heights_;
     const Horizon horizon_;
     const WideGrid grid_;
-    std::optional<RowTops> tops_;
 };
 
 }  // namespace asperity
