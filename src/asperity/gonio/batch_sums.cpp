@@ -54,8 +54,8 @@ BatchSums::BatchSums(int cells, int channels, int orders, int bounces)
       channels_(index(channels)),
       orders_(index(orders)),
       bounces_(index(bounces)),
-      energy_(cells_ * orders_ * channels_),
-      is_touched_(cells_),
+      energy_(cells_ * channels_),
+      touched_(cells_ + 1),
       escaped_by_bounce_(channels_ * bounces_),
       absorbed_(channels_),
       truncated_(channels_),
@@ -64,31 +64,52 @@ BatchSums::BatchSums(int cells, int channels, int orders, int bounces)
 void BatchSums::escape(const PerPath<std::int32_t>& cells, const PerPath<std::int32_t>& paths,
                        std::size_t count, int order, const Weights& weights) {
     const std::size_t bounce = index(order - 1), kept = std::min(bounce, orders_ - 1);
-    const std::size_t stride = orders_ * channels_;
-    // Plain pointers: this is the innermost loop that is not done in lanes
-    if (weights.empty()) {
-        std::uint64_t* sums = energy_.data() + kept;
-        for (std::size_t k = 0; k < count; ++k) {
-            __builtin_prefetch(sums + index(cells[std::min(k + kAhead, count - 1)]) * stride, 1);
-            std::uint64_t& sum = sums[index(cells[k]) * stride];
-            if (sum == 0) touch(index(cells[k]));
-            sum += kRayEnergy;
-        }
-        escaped_by_bounce_[bounce] += count * kRayEnergy;
+    if (kept > 0) {
+        const std::size_t first = later_.size();
+        later_.resize(first + count);
+        const std::size_t begin = kept * channels_ * cells_;
+        for (std::size_t k = 0; k < count; ++k)
+            later_[first + k] = static_cast<std::uint32_t>(begin + index(cells[k]));
+    }
+    if (!weights.empty()) {
+        escape_weighted(cells, paths, count, order, weights);
         return;
     }
-    for (std::size_t k = 0; k < count; ++k) touch(index(cells[k]));
-    for (std::size_t c = 0; c < channels_; ++c) {
-        const PerPath<float>& weight = weights[c];
-        std::uint64_t* sums = energy_.data() + kept * channels_ + c;
-        std::uint64_t sum = 0;
-        for (std::size_t k = 0; k < count; ++k) {
-            const std::uint64_t energy = to_energy(double{weight[index(paths[k])]});
-            sums[index(cells[k]) * stride] += energy;
-            sum += energy;
+    // Plain pointers and no branch: this is the innermost loop that is not done in lanes
+    std::uint64_t* sums = energy_.data();
+    std::uint32_t* touched = touched_.data() + touched_count_;
+    for (std::size_t k = 0; k < count; ++k) {
+        __builtin_prefetch(sums + cells[std::min(k + kAhead, count - 1)], 1);
+        std::uint64_t& sum = sums[cells[k]];
+        *touched = static_cast<std::uint32_t>(cells[k]);
+        touched += sum == 0 ? 1 : 0;
+        sum += kRayEnergy;
+    }
+    touched_count_ = static_cast<std::size_t>(touched - touched_.data());
+    escaped_by_bounce_[bounce] += count * kRayEnergy;
+}
+
+void BatchSums::escape_weighted(const PerPath<std::int32_t>& cells,
+                                const PerPath<std::int32_t>& paths, std::size_t count, int order,
+                                const Weights& weights) {
+    const std::size_t bounce = index(order - 1);
+    const std::size_t first_later = later_energy_.size();
+    const bool later = std::min(bounce, orders_ - 1) > 0;
+    if (later) later_energy_.resize(first_later + count * channels_);
+    for (std::size_t k = 0; k < count; ++k) {
+        std::uint64_t* sums = &energy_[index(cells[k]) * channels_];
+        std::uint64_t before = 0, after = 0;
+        for (std::size_t c = 0; c < channels_; ++c) {
+            const std::uint64_t energy = to_energy(double{weights[c][index(paths[k])]});
+            if (later) later_energy_[first_later + k * channels_ + c] = energy;
+            before |= sums[c];
+            sums[c] += energy;
+            after |= sums[c];
+            escaped_by_bounce_[c * bounces_ + bounce] += energy;
+            absorbed_[c] += kRayEnergy - energy;
         }
-        escaped_by_bounce_[c * bounces_ + bounce] += sum;
-        absorbed_[c] += count * kRayEnergy - sum;
+        touched_[touched_count_] = static_cast<std::uint32_t>(cells[k]);
+        touched_count_ += before == 0 && after != 0 ? 1 : 0;
     }
 }
 
@@ -101,21 +122,22 @@ void BatchSums::escape_counted(std::uint64_t count, const CountedLight& light) {
     }
 }
 
-void BatchSums::touch(std::size_t cell) {
-    if (is_touched_[cell]) return;
-    is_touched_[cell] = 1;
-    touched_.push_back(static_cast<std::uint32_t>(cell));
+bool BatchSums::few_touched() const {
+    constexpr std::size_t kFew = 16;
+    return touched_count_ < cells_ / kFew;
 }
 
 template <class Work>
 void BatchSums::for_touched(Work work) const {
-    constexpr std::size_t kFew = 16;
-    if (touched_.size() < cells_ / kFew) {
-        for (const std::uint32_t cell : touched_) work(std::size_t{cell});
+    if (few_touched()) {
+        for (std::size_t k = 0; k < touched_count_; ++k) work(std::size_t{touched_[k]});
         return;
     }
-    for (std::size_t cell = 0; cell < cells_; ++cell)
-        if (is_touched_[cell]) work(cell);
+    for (std::size_t cell = 0; cell < cells_; ++cell) {
+        std::uint64_t any = 0;
+        for (std::size_t c = 0; c < channels_; ++c) any |= energy_[cell * channels_ + c];
+        if (any != 0) work(cell);
+    }
 }
 
 void BatchSums::settle(std::vector<std::uint64_t>& account, const PerPath<std::int32_t>& paths,
@@ -133,12 +155,15 @@ void BatchSums::settle(std::vector<std::uint64_t>& account, const PerPath<std::i
 }
 
 void BatchSums::clear() {
-    const std::size_t stride = orders_ * channels_;
-    for_touched([&](std::size_t cell) {
-        std::fill_n(&energy_[cell * stride], stride, std::uint64_t{0});
-        is_touched_[cell] = 0;
-    });
-    touched_.clear();
+    if (few_touched())
+        for_touched([&](std::size_t cell) {
+            std::fill_n(&energy_[cell * channels_], channels_, std::uint64_t{0});
+        });
+    else
+        std::fill(energy_.begin(), energy_.end(), std::uint64_t{0});
+    touched_count_ = 0;
+    later_.clear();
+    later_energy_.clear();
     for (auto* account : {&escaped_by_bounce_, &absorbed_, &truncated_, &edge_})
         std::fill(account->begin(), account->end(), std::uint64_t{0});
     rays = segments = reflections = stuck = counted_ = 0;
@@ -156,10 +181,13 @@ LayerSums::LayerSums(int cells, int channels, int orders, int bounces, std::uint
       absorbed_(channels_),
       truncated_(channels_),
       edge_(channels_),
-      cell_spread_(channels_ * cells_),
       bounce_spread_(channels_ * bounces_),
       albedo_spread_(channels_),
-      light_(light) {}
+      light_(light) {
+    cell_spread_.sum.resize(channels_ * cells_);
+    cell_spread_.squares.resize(channels_ * cells_);
+    if (light && !light->cells().empty()) cell_spread_.by_counted.resize(channels_ * cells_);
+}
 
 std::uint64_t LayerSums::scaled(std::uint64_t energy, std::uint64_t rays) const {
     if (rays == largest_batch_) return energy;
@@ -187,23 +215,33 @@ void LayerSums::add(const BatchSums& b) {
         albedo_spread_[c].add(
             scaled(std::accumulate(first, first + bounces_, std::uint64_t{0}), b.rays));
     }
+    add_cells(b, counted);
+    add_later_orders(b);
+}
+
+void LayerSums::add_cells(const BatchSums& b, std::uint64_t counted) {
+    CellSpreads& s = cell_spread_;
+    const bool with_counted = !s.by_counted.empty();
     b.for_touched([&](std::size_t cell) {
-        const std::uint64_t* sums = &b.energy_[cell * orders_ * channels_];
-        std::uint64_t* mine = &energy_[cell * orders_ * channels_];
-        CellSpread* spread = &cell_spread_[cell * channels_];
         for (std::size_t c = 0; c < channels_; ++c) {
-            std::uint64_t total = 0;
-            for (std::size_t order = 0; order < orders_; ++order) {
-                const std::uint64_t energy = sums[order * channels_ + c];
-                mine[order * channels_ + c] += energy;
-                total += energy;
-            }
-            if (total == 0) continue;
-            const std::uint64_t energy = scaled(total, b.rays);
-            spread[c].add(energy);
-            spread[c].by_counted += Wide{energy} * counted;
+            const std::size_t k = cell * channels_ + c;
+            energy_[c * cells_ + cell] += b.energy_[k];
+            const std::uint64_t energy = scaled(b.energy_[k], b.rays);
+            s.sum[k] += energy;
+            s.squares[k] += Wide{energy} * energy;
+            if (with_counted) s.by_counted[k] += Wide{energy} * counted;
         }
     });
+}
+
+void LayerSums::add_later_orders(const BatchSums& b) {
+    const bool mirrors = b.later_energy_.empty();
+    for (std::size_t k = 0; k < b.later_.size(); ++k) {
+        __builtin_prefetch(&energy_[b.later_[std::min(k + kAhead, b.later_.size() - 1)]], 1);
+        for (std::size_t c = 0; c < channels_; ++c)
+            energy_[b.later_[k] + c * cells_] +=
+                mirrors ? kRayEnergy : b.later_energy_[k * channels_ + c];
+    }
 }
 
 LayerSums::Estimate LayerSums::estimate(long double sum, long double excess) const {
@@ -229,13 +267,16 @@ LayerSums::Estimate LayerSums::estimate(const Spread& s) const {
     return estimate(static_cast<long double>(s.sum), excess(s.squares, s.sum, s.sum));
 }
 
-LayerSums::Estimate LayerSums::estimate(const CellSpread& s, std::uint64_t energy) const {
-    if (energy == 0) return estimate(s);
+LayerSums::Estimate LayerSums::estimate(std::size_t k, std::uint64_t energy) const {
+    const std::uint64_t sum = cell_spread_.sum[k];
+    const Wide squares = cell_spread_.squares[k];
+    if (energy == 0) return estimate(Spread{sum, squares});
     // With n counted rays of energy f each beside e: (e + f n)^2, term by term
     const Spread& n = counted_spread_;
     const long double f = std::ldexp(static_cast<long double>(energy), -kCountShift);
-    return estimate(static_cast<long double>(s.sum) + f * static_cast<long double>(n.sum),
-                    excess(s.squares, s.sum, s.sum) + 2 * f * excess(s.by_counted, s.sum, n.sum) +
+    return estimate(static_cast<long double>(sum) + f * static_cast<long double>(n.sum),
+                    excess(squares, sum, sum) +
+                        2 * f * excess(cell_spread_.by_counted[k], sum, n.sum) +
                         f * f * excess(n.squares, n.sum, n.sum));
 }
 
@@ -256,7 +297,7 @@ LayerSums::Errors LayerSums::relative_errors() const {
         // The strongest cells that together carry 90 % of the energy
         std::vector<Estimate> cells;
         for_cells([&](std::size_t cell, std::ptrdiff_t k) {
-            cells.push_back(estimate(cell_spread_[cell * channels_ + c], counted_energy(k, c)));
+            cells.push_back(estimate(cell * channels_ + c, counted_energy(k, c)));
         });
         std::sort(cells.begin(), cells.end(),
                   [](const Estimate& a, const Estimate& b) { return a.mean > b.mean; });
@@ -276,16 +317,17 @@ void LayerSums::write(Layer& layer) const {
     layer.reflections = reflections_;
     layer.stuck = stuck_;
     layer.batches = batches_;
-    layer.energy.resize(energy_.size());
-    layer.stderr_energy.resize(cell_spread_.size());
+    // The first order is what the others leave of the sum of all
+    layer.energy = energy_;
+    const std::size_t order = channels_ * cells_;
+    for (std::size_t k = order; k < energy_.size(); ++k) layer.energy[k % order] -= energy_[k];
+    layer.stderr_energy.resize(channels_ * cells_);
     for_cells([&](std::size_t cell, std::ptrdiff_t k) {
-        for (std::size_t n = 0; n < orders_ * channels_; ++n)
-            layer.energy[n * cells_ + cell] = energy_[cell * orders_ * channels_ + n];
         for (std::size_t c = 0; c < channels_; ++c) {
             const std::uint64_t energy = counted_energy(k, c);
             layer.energy[c * cells_ + cell] += counted_ * energy;
             layer.stderr_energy[c * cells_ + cell] =
-                static_cast<float>(estimate(cell_spread_[cell * channels_ + c], energy).error);
+                static_cast<float>(estimate(cell * channels_ + c, energy).error);
         }
     });
     layer.absorbed = absorbed_;

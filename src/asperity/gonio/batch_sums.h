@@ -59,21 +59,26 @@ class BatchSums {
 
   private:
     friend class LayerSums;
-    /// Remembers that a cell holds energy.
-    void touch(std::size_t cell);
     /// Calls work(cell) for the cells that hold energy: in order if they are many, so that memory
     /// is gone through in one direction.
     template <class Work>
     void for_touched(Work work) const;
+    bool few_touched() const;
     /// Books the paths' energy under `account` and the rest of it as absorbed.
     void settle(std::vector<std::uint64_t>& account, const PerPath<std::int32_t>& paths,
                 std::size_t count, const Weights& weights);
+    void escape_weighted(const PerPath<std::int32_t>& cells, const PerPath<std::int32_t>& paths,
+                         std::size_t count, int order, const Weights& weights);
 
     std::size_t cells_, channels_, orders_, bounces_;
-    std::vector<std::uint64_t> energy_;   ///< [(cell * orders + order) * channels + channel]
-    std::uint64_t counted_ = 0;           ///< rays of escape_counted: not in energy_
-    std::vector<std::uint32_t> touched_;  ///< cells that hold energy
-    std::vector<std::uint8_t> is_touched_;
+    // All orders of a cell together, so that few bytes are touched at random; what is of a later
+    // order is noted once more, one by one
+    std::vector<std::uint64_t> energy_;        ///< [cell * channels + channel]
+    std::vector<std::uint32_t> later_;         ///< places in LayerSums::energy_, first channel
+    std::vector<std::uint64_t> later_energy_;  ///< [k * channels + channel]; none: kRayEnergy each
+    std::uint64_t counted_ = 0;                ///< rays of escape_counted: not in energy_
+    std::vector<std::uint32_t> touched_;       ///< cells that hold energy, and room for one more
+    std::size_t touched_count_ = 0;
     std::vector<std::uint64_t> escaped_by_bounce_;  ///< [channel * bounces + order]
     std::vector<std::uint64_t> absorbed_, truncated_, edge_;
 };
@@ -111,9 +116,12 @@ class LayerSums {
             squares += Wide{scaled} * scaled;
         }
     };
-    /// The same for what goes into a cell beside the counted rays, and products with their number.
-    struct CellSpread : Spread {
-        Wide by_counted = 0;
+    /// The same for what goes into each cell and channel beside the counted rays, and products with
+    /// their number: [cell * channels + channel].
+    struct CellSpreads {
+        std::vector<std::uint64_t> sum;
+        std::vector<Wide> squares;
+        std::vector<Wide> by_counted;  ///< none if there are no counted rays
     };
     /// Mean over the batches as a fraction of the launched energy, and its standard error.
     struct Estimate {
@@ -121,13 +129,15 @@ class LayerSums {
         double relative() const { return mean > 0 ? error / mean : 0.0; }
     };
     Estimate estimate(const Spread& spread) const;
-    /// With the counted rays' share of the cell, `energy` each.
-    Estimate estimate(const CellSpread& spread, std::uint64_t energy) const;
+    /// Of a cell and channel, with the counted rays' share of it, `energy` each.
+    Estimate estimate(std::size_t k, std::uint64_t energy) const;
     /// From a sum over the K batches and its excess K sum e^2 - (sum e)^2.
     Estimate estimate(long double sum, long double excess) const;
     /// K times a sum of products less the product of the sums.
     long double excess(Wide products, std::uint64_t a, std::uint64_t b) const;
     std::uint64_t scaled(std::uint64_t energy, std::uint64_t rays) const;
+    void add_cells(const BatchSums& batch, std::uint64_t counted);
+    void add_later_orders(const BatchSums& batch);
     /// Calls work(cell, k) for each cell, where k tells its place in light_->cells(), or -1.
     template <class Work>
     void for_cells(Work work) const;
@@ -139,11 +149,11 @@ class LayerSums {
     std::uint64_t largest_batch_;
     int batches_ = 0;
     std::uint64_t rays_ = 0, segments_ = 0, reflections_ = 0, stuck_ = 0;
-    std::vector<std::uint64_t> energy_;  ///< as in BatchSums
+    std::vector<std::uint64_t> energy_;  ///< as in Layer, but for the first order: sum of all
     std::vector<std::uint64_t> escaped_by_bounce_, absorbed_, truncated_, edge_;
-    std::vector<CellSpread> cell_spread_;  ///< [cell * channels + channel]
-    std::vector<Spread> bounce_spread_;    ///< [channel * bounces + order]
-    std::vector<Spread> albedo_spread_;    ///< per channel
+    CellSpreads cell_spread_;
+    std::vector<Spread> bounce_spread_;  ///< [channel * bounces + order]
+    std::vector<Spread> albedo_spread_;  ///< per channel
     const CountedLight* light_;
     std::uint64_t counted_ = 0;  ///< rays
     Spread counted_spread_;      ///< of their number, in units of 2^-kCountShift
