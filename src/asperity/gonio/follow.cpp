@@ -124,7 +124,7 @@ void Follower::follow_launched(const Scene& scene, BatchSums& sums) {
     if (wave_.counted > 0) sums.escape_counted(wave_.counted, scene.known->light());
     sums.reflections += wave_.counted;
     sums.segments += wave_.counted;
-    scene.tracer.land(direction_, wave_);
+    if (direction_.x != 0 || direction_.y != 0) scene.tracer.land(line_, direction_, wave_);
     for (std::size_t k = 0; k < wave_.points.count; ++k)
         wave_.points.path[k] = static_cast<std::int32_t>(k);
     follow_wave(scene, wave_.points.count, true, sums);

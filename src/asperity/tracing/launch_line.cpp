@@ -72,9 +72,9 @@ void LaunchLine::add_triangle(Round& r, const Vertex& a, const Vertex& b, const 
     triangles_.push_back({swapped_ ? pack_vertex(y, x) : pack_vertex(x, y), upper ? -1.0f : 1.0f,
                           static_cast<float>(swapped_ ? -corner.w : corner.w),
                           static_cast<float>(r.z - corner.z)});
-    const Cell cell{upper ? x - 1 : x, upper ? y - 1 : y};
-    const Cell& last = r.cells[r.cell_count > 0 ? r.cell_count - 1 : 0];
-    if (r.cell_count == 0 || cell.x != last.x || cell.y != last.y) r.cells[r.cell_count++] = cell;
+    r.cells[(triangles_.size() - 1) % kEdges] = {static_cast<std::int16_t>(x - (upper ? 1 : 0)),
+                                                 static_cast<std::int16_t>(y - (upper ? 1 : 0)),
+                                                 upper ? 1 : 0};
 }
 
 void LaunchLine::add_round() {

@@ -30,7 +30,7 @@ class LaunchLine {
     struct Triangle {
         std::int32_t corner;  ///< O, packed
         float side;           ///< as in FacetPoints
-        float w;              ///< as in ParallelHits
+        float w;              ///< distance of O from the line, positive on the left
         float sunk;           ///< how much a ray has sunk beside O since the round began
     };
     /// An edge between two vertices on either side of the line, as indices from the first vertex of
@@ -40,13 +40,14 @@ class LaunchLine {
         std::int32_t left, right;
         float share_left, share_right, sunk;
     };
+    /// The cell of a triangle, counted from the start's cell.
     struct Cell {
-        std::int32_t x, y;
+        std::int16_t x, y;
+        std::int32_t upper;  ///< 1 for the upper triangle, 0 for the lower one
     };
     struct Round {
         Edge edges[kEdges];
-        Cell cells[kEdges];      ///< that are crossed, counted from the start's cell
-        int cell_count;          ///< of these
+        Cell cells[kEdges];      ///< of the triangles before the edges
         int first_x, first_y;    ///< the first vertex, counted likewise
         int lowest_x, lowest_y;  ///< no vertex of the round lies before this one, counted likewise
         double z;                ///< of the ray that starts where the line does, as it enters
@@ -66,8 +67,8 @@ class LaunchLine {
         while (k >= rounds_.size()) add_round();
         return rounds_.data()[k];
     }
-    /// triangles()[k * kEdges + edge]: what is hit when this edge of round k is the first below the
-    /// surface; of the rounds asked for.
+    /// triangles()[k * kEdges + edge]: the one before an edge of round k, which is hit when the
+    /// edge is the first below the surface; of the rounds asked for.
     const Triangle* triangles() const { return triangles_.data(); }
     bool swapped() const { return swapped_; }
 

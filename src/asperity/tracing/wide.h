@@ -75,14 +75,6 @@ struct Walkers {
     PerPath<std::int32_t> sector, ray;
 };
 
-/// Triangles that parallel rays have fallen into: FacetPoints' corner and side, and beside the
-/// corner the distance `w` from the line of the ray and its height `z`.
-struct ParallelHits {
-    std::size_t count = 0;
-    PerPath<std::int32_t> corner;
-    PerPath<float> side, w, z;
-};
-
 /// Paths that meet nothing any more: their directions, and for finite patches where they are, in
 /// cells from the middle and in height.
 struct Escapes {

@@ -17,7 +17,6 @@
 namespace asperity {
 
 HWY_EXPORT(LaunchInLines);
-HWY_EXPORT(SortLaunched);
 HWY_EXPORT(LaunchStraightDown);
 HWY_EXPORT(PartFree);
 HWY_EXPORT(SetOut);
@@ -31,10 +30,6 @@ bool launch_in_lines(const WideGrid& grid, const PaddedHeights& heights, LaunchL
                      LaunchHits& hits, std::size_t& counted) {
     return HWY_DYNAMIC_DISPATCH(LaunchInLines)(grid, heights, line, stripe, known, room, hits,
                                                counted);
-}
-void sort_launched(const WideGrid& grid, const LaunchLine& line, const LaunchHits& launched,
-                   const CountedFacets& known, ParallelHits& hits, std::size_t& counted) {
-    HWY_DYNAMIC_DISPATCH(SortLaunched)(grid, line, launched, known, hits, counted);
 }
 void launch_straight_down(const WideGrid& grid, float u, float v, const LaunchedRow& row,
                           const CountedFacets& known, FacetPoints& points, std::size_t& counted) {
@@ -60,9 +55,9 @@ void land(const WideGrid& grid, const RawHits& hits, const Directions& direction
           FacetPoints& points) {
     HWY_DYNAMIC_DISPATCH(Land)(grid, hits, directions, points);
 }
-void land_parallel(const WideGrid& grid, const ParallelHits& hits, const Vec3& direction,
-                   FacetPoints& points) {
-    HWY_DYNAMIC_DISPATCH(LandParallel)(grid, hits, direction, points);
+void land_parallel(const WideGrid& grid, const LaunchLine& line, const LaunchHits& hits,
+                   const Vec3& direction, FacetPoints& points) {
+    HWY_DYNAMIC_DISPATCH(LandParallel)(grid, line, hits, direction, points);
 }
 
 }  // namespace asperity

@@ -21,7 +21,6 @@ struct RawHits {
 struct PathWaveWork {
     Walkers walkers;
     RawHits raw;
-    ParallelHits parallel;
     Leavers leavers;
     LaunchHits launched;
     PerPath<float> start_height;
@@ -33,8 +32,6 @@ struct PathWaveWork {
 bool launch_in_lines(const WideGrid& grid, const PaddedHeights& heights, LaunchLine& line,
                      LaunchStripe& stripe, const CountedFacets& known, std::size_t room,
                      LaunchHits& hits, std::size_t& counted);
-void sort_launched(const WideGrid& grid, const LaunchLine& line, const LaunchHits& launched,
-                   const CountedFacets& known, ParallelHits& hits, std::size_t& counted);
 void launch_straight_down(const WideGrid& grid, float u, float v, const LaunchedRow& row,
                           const CountedFacets& known, FacetPoints& points, std::size_t& counted);
 /// wide_leave-inl.h
@@ -49,7 +46,7 @@ void release(const Leavers& leavers, const Directions& directions, bool with_pla
 /// wide_land-inl.h
 void land(const WideGrid& grid, const RawHits& hits, const Directions& directions,
           FacetPoints& points);
-void land_parallel(const WideGrid& grid, const ParallelHits& hits, const Vec3& direction,
-                   FacetPoints& points);
+void land_parallel(const WideGrid& grid, const LaunchLine& line, const LaunchHits& hits,
+                   const Vec3& direction, FacetPoints& points);
 
 }  // namespace asperity

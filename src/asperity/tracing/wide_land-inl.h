@@ -110,17 +110,21 @@ void Land(const WideGrid& grid, const RawHits& hits, const Directions& direction
     points.count = hits.count;
 }
 
-void LandParallel(const WideGrid& grid, const ParallelHits& hits, const Vec3& direction,
-                  FacetPoints& points) {
+void LandParallel(const WideGrid& grid, const LaunchLine& line, const LaunchHits& hits,
+                  const Vec3& direction, FacetPoints& points) {
     on_ground(grid, [&](const auto& ground) HWY_ATTR {
-        const Line line =
+        const Line light =
             line_of(ground, all(static_cast<float>(direction.x)),
                     all(static_cast<float>(direction.y)), all(static_cast<float>(direction.z)));
         for (std::size_t k = 0; k < hits.count; k += kLanes) {
-            const Floats side = load(hits.side, k);
-            const Fallen fallen{cell_of(load(hits.corner, k), side), negative(side),
-                                load(hits.w, k), load(hits.z, k), line};
-            land_at(ground, fallen, first_lanes(k, hits.count), points, k);
+            const Mask valid = first_lanes(k, hits.count);
+            const Fields triangle =
+                gather_fields(line.triangles(), only(valid, load(hits.triangle, k)));
+            const Ints corner = plus(load(hits.cell, k), hn::BitCast(kInt, triangle.a));
+            const Floats side = triangle.b;
+            const Fallen fallen{cell_of(corner, side), negative(side), triangle.c,
+                                hn::Sub(load(hits.z, k), triangle.d), light};
+            land_at(ground, fallen, valid, points, k);
         }
     });
     points.count = hits.count;

@@ -93,19 +93,19 @@ class Descent {
 
     /// Goes on until all rays have landed: true, or until `room` of them have.
     HWY_INLINE bool go(std::size_t room, LaunchHits& hits, std::size_t& counted) {
-        bool count_only = all_counted(line_.round(stripe_.round));
-        for (bool next; flies(); ++stripe_.round, count_only = next) {
-            next = all_counted(line_.round(stripe_.round + 1));
-            if (!next) fetch(line_.round(stripe_.round + 1));
+        Known known = known_of(line_.round(stripe_.round));
+        for (Known next; flies(); ++stripe_.round, known = next) {
+            next = known_of(line_.round(stripe_.round + 1));
+            if (!next.all) fetch(line_.round(stripe_.round + 1));
             const LaunchLine::Round& round = line_.round(stripe_.round);
             const Place place = place_of(round);
             Shade shade;
-            if (count_only) {
+            if (known.all) {
                 look_at(round, place, kLastEdge, shade);
                 counted += count(round, shade[kLastEdge]);
             } else {
                 look_at(round, place, 0, shade);
-                if (!land(round, place, shade, room, hits)) return false;
+                if (!land(round, place, shade, known, room, hits, counted)) return false;
             }
             // Rays enter the next round lower down
             for (std::size_t k = 0; k < kVectors; ++k)
@@ -161,24 +161,40 @@ class Descent {
                                                        Horizon::kSectors);
     }
 
-    /// Whether all lines cross nothing but counted facets.
-    HWY_INLINE bool all_counted(const LaunchLine::Round& round) const {
-        if (!known_.cells) return false;
+    /// Which of the triangles of a round are counted ones: bit n of a line is set if the one before
+    /// edge n is.
+    struct Known {
+        Ints bits[kVectors];
+        bool all = false;  ///< of all lines
+    };
+    HWY_INLINE Known known_of(const LaunchLine::Round& round) const {
+        static_assert(LaunchLine::kEdges < 32);
+        constexpr std::int32_t kAll = (1 << LaunchLine::kEdges) - 1;
+        Known known;
+        for (Ints& bits : known.bits) bits = hn::Zero(kInt);
+        if (!known_.cells) return known;
         const Place place = place_of(round);
-        const hn::CappedTag<std::uint8_t, kLaunchGroup> bytes;
-        const auto both = hn::Set(bytes, CountedFacets::kLower | CountedFacets::kUpper);
-        for (int n = 0; n < round.cell_count; ++n) {
+        const hn::Rebind<std::uint8_t, IntTag> bytes;
+        for (int n = 0; n < LaunchLine::kEdges; ++n) {
             // From within the tile on; beyond its end it begins again
-            const int row = place.y + round.cells[n].y;
+            const LaunchLine::Cell& cell = round.cells[n];
+            const int row = place.y + cell.y;
             const std::uint8_t* at =
                 known_.cells +
                 std::ptrdiff_t{row < cells_along_ ? row : row - cells_along_} * known_.pitch +
-                (place.x + round.cells[n].x);
-            for (int k = 0; k < kLaunchGroup; k += static_cast<int>(hn::Lanes(bytes)))
-                if (!hn::AllTrue(bytes, hn::Eq(hn::And(hn::LoadU(bytes, at + k), both), both)))
-                    return false;
+                (place.x + cell.x);
+            const Ints bit = all(cell.upper ? CountedFacets::kUpper : CountedFacets::kLower);
+            for (std::size_t k = 0; k < kVectors; ++k) {
+                const Ints facets = hn::PromoteTo(kInt, hn::LoadU(bytes, at + k * kLanes));
+                known.bits[k] =
+                    hn::Or(known.bits[k],
+                           hn::IfThenElseZero(hn::TestBit(facets, bit), all(std::int32_t{1} << n)));
+            }
         }
-        return true;
+        known.all = true;
+        for (const Ints& bits : known.bits)
+            known.all = known.all && hn::AllTrue(kInt, hn::Eq(bits, all(kAll)));
+        return known;
     }
 
     /// Finds the shade of the edges from `begin` on.
@@ -259,13 +275,16 @@ class Descent {
     /// Lands rays, one of each line at a time, as long as any meets the surface in the round: true,
     /// or until there is no room.
     HWY_INLINE bool land(const LaunchLine::Round& round, const Place& place, const Shade& shade,
-                         std::size_t room, LaunchHits& hits) {
+                         const Known& known, std::size_t room, LaunchHits& hits,
+                         std::size_t& counted) {
         Rays rays;
         enter(round, rays);
         const bool swapped = line_.swapped();
         const Ints first_cell =
             all(swapped ? pack_vertex(place.y - grid_.middle_x, place.x - grid_.middle_y)
                         : pack_vertex(place.x - grid_.middle_x, place.y - grid_.middle_y));
+        const Ints first_triangle =
+            all(static_cast<std::int32_t>(stripe_.round) * LaunchLine::kEdges);
         for (bool landing = true; landing;) {
             if (hits.count + kLaunchGroup > room) return false;
             landing = false;
@@ -273,10 +292,19 @@ class Descent {
                 const Mask low = hn::Le(rays.height[k], shade[kLastEdge][k]);
                 if (hn::AllFalse(kFloat, low)) continue;
                 landing = true;
+                const Ints edge = first_edge(shade, k, rays.height[k]);
+                const Mask sure = hn::And(
+                    low, hn::RebindMask(kFloat, hn::TestBit(hn::Shr(known.bits[k], edge), all(1))));
+                counted += hn::CountTrue(kFloat, sure);
+                const Packer pack(hn::AndNot(sure, low));
                 const Ints lane = hn::Iota(kInt, static_cast<std::int32_t>(k * kLanes));
-                const Ints cell =
-                    swapped ? hn::Add(first_cell, hn::ShiftLeft<16>(lane)) : plus(first_cell, lane);
-                pack_landed(shade, k, low, rays.height[k], cell, hits);
+                pack(hn::Add(first_triangle, edge), hits.triangle, hits.count);
+                pack(
+                    swapped ? hn::Add(first_cell, hn::ShiftLeft<16>(lane)) : plus(first_cell, lane),
+                    hits.cell, hits.count);
+                pack(rays.height[k], hits.z, hits.count);
+                hits.count += pack.count;
+
                 // The rays behind them come next
                 std::int32_t* next = stripe_.next + k * kLanes;
                 const Ints behind = hn::Add(hn::Load(kInt, next), only(low, all(1)));
@@ -289,17 +317,13 @@ class Descent {
         return true;
     }
 
-    /// Appends the rays of a vector of lines that are `low` enough to meet the surface.
-    HWY_INLINE void pack_landed(const Shade& shade, std::size_t k, Mask low, Floats height,
-                                Ints cell, LaunchHits& hits) const {
-        Ints triangle = all(static_cast<std::int32_t>(stripe_.round) * LaunchLine::kEdges);
+    /// The first edge, or the last, at which rays that enter at these heights are below the
+    /// surface.
+    HWY_INLINE static Ints first_edge(const Shade& shade, std::size_t k, Floats height) {
+        Ints edge = hn::Zero(kInt);
         for (int n = 0; n < kLastEdge; ++n)
-            triangle = select(hn::Gt(height, shade[n][k]), hn::Add(triangle, all(1)), triangle);
-        const Packer pack(low);
-        pack(triangle, hits.triangle, hits.count);
-        pack(cell, hits.cell, hits.count);
-        pack(height, hits.z, hits.count);
-        hits.count += pack.count;
+            edge = select(hn::Gt(height, shade[n][k]), hn::Add(edge, all(1)), edge);
+        return edge;
     }
 
     const WideGrid& grid_;
@@ -315,47 +339,6 @@ bool LaunchInLines(const WideGrid& grid, const PaddedHeights& heights, LaunchLin
                    LaunchHits& hits, std::size_t& counted) {
     static_assert(kLaunchGroup + LaunchLine::kReach <= PaddedHeights::kMargin);
     return Descent(grid, heights, line, stripe, known).go(room, hits, counted);
-}
-
-/// Lanes whose facets are counted ones.
-HWY_INLINE Mask is_counted(const WideGrid& grid, const Ground<true>& ground, Mask valid,
-                           const CountedFacets& known, Ints corner, Floats side) {
-    Ints cell = ground.wrap(cell_of(corner, side));
-    int first_x = grid.middle_x, first_y = grid.middle_y;
-    if (known.swapped) {
-        cell = hn::Or(hn::ShiftLeft<16>(cell), hn::And(hn::ShiftRight<16>(cell), all(0xffff)));
-        std::swap(first_x, first_y);
-    }
-    const Ints first = all(first_y * known.pitch + first_x);
-    const Ints byte =
-        gather_bytes(known.cells, only(valid, hn::Add(index_of(cell, known.pitch), first)));
-    const Ints bit = select(negative(side), all(CountedFacets::kUpper), all(CountedFacets::kLower));
-    return hn::And(valid, hn::RebindMask(kFloat, hn::Ne(hn::And(byte, bit), hn::Zero(kInt))));
-}
-
-/// Looks up the triangles that were hit, and appends those that are to be followed to `hits`.
-void SortLaunched(const WideGrid& grid, const LaunchLine& line, const LaunchHits& launched,
-                  const CountedFacets& known, ParallelHits& hits, std::size_t& counted) {
-    const Ground<true> ground(grid);
-    const LaunchLine::Triangle* triangles = line.triangles();
-    for (std::size_t k = 0; k < launched.count; k += kLanes) {
-        const Mask valid = first_lanes(k, launched.count);
-        const Fields triangle = gather_fields(triangles, only(valid, load(launched.triangle, k)));
-        const Ints corner = plus(load(launched.cell, k), hn::BitCast(kInt, triangle.a));
-        const Floats side = triangle.b;
-        Mask open = valid;
-        if (known.cells) {
-            const Mask sure = is_counted(grid, ground, valid, known, corner, side);
-            counted += hn::CountTrue(kFloat, sure);
-            open = hn::AndNot(sure, valid);
-        }
-        const Packer pack(open);
-        pack(corner, hits.corner, hits.count);
-        pack(side, hits.side, hits.count);
-        pack(triangle.c, hits.w, hits.count);
-        pack(hn::Sub(load(launched.z, k), triangle.d), hits.z, hits.count);
-        hits.count += pack.count;
-    }
 }
 
 /// Rays straight down meet the facet below them; nothing to fly. Those that are to be followed are

@@ -35,7 +35,7 @@ std::size_t WideTracer::memory_bytes() const {
 
 void WideTracer::clear(PathWave& wave) const {
     wave.points.count = wave.escapes.count = wave.edge_count = wave.stuck_count = wave.counted = 0;
-    wave.work_->parallel.count = 0;
+    wave.work_->launched.count = 0;
 }
 
 bool WideTracer::lines_along_x(const Vec3& d) const {
@@ -52,12 +52,8 @@ void WideTracer::start(LaunchLine& line, double offset, const Vec3& d) const {
 
 bool WideTracer::launch(LaunchLine& line, LaunchStripe& stripe, const CountedFacets& known,
                         PathWave& wave) const {
-    LaunchHits& launched = wave.work_->launched;
-    launched.count = 0;
-    const bool done = launch_in_lines(grid_, heights_, line, stripe, known,
-                                      kWave - this->launched(wave), launched, wave.counted);
-    sort_launched(grid_, line, launched, known, wave.work_->parallel, wave.counted);
-    return done;
+    return launch_in_lines(grid_, heights_, line, stripe, known, kWave, wave.work_->launched,
+                           wave.counted);
 }
 
 void WideTracer::launch_down(double u, double v, const LaunchedRow& row, const CountedFacets& known,
@@ -67,12 +63,11 @@ void WideTracer::launch_down(double u, double v, const LaunchedRow& row, const C
 }
 
 std::size_t WideTracer::launched(const PathWave& wave) const {
-    return wave.points.count + wave.work_->parallel.count;
+    return wave.points.count + wave.work_->launched.count;
 }
 
-void WideTracer::land(const Vec3& direction, PathWave& wave) const {
-    if (wave.work_->parallel.count > 0)
-        land_parallel(grid_, wave.work_->parallel, direction, wave.points);
+void WideTracer::land(const LaunchLine& line, const Vec3& direction, PathWave& wave) const {
+    land_parallel(grid_, line, wave.work_->launched, direction, wave.points);
 }
 
 void WideTracer::place(const Ray& ray, std::size_t k, PathWave& wave) const {

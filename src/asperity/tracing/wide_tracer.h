@@ -93,8 +93,8 @@ class WideTracer {
                      PathWave& wave) const;
     /// Rays launched since the wave was cleared, but for those counted; at most kWave may be.
     std::size_t launched(const PathWave& wave) const;
-    /// Finishes a launch along `direction`, which is that of the lines.
-    void land(const Vec3& direction, PathWave& wave) const;
+    /// Finishes launches along such a line of light that travels along `direction`.
+    void land(const LaunchLine& line, const Vec3& direction, PathWave& wave) const;
     /// Moves rays from free space, at most kWave, to their first facets; path k is ray k.
     void enter(std::span<const Ray> rays, PathWave& wave) const;
     /// Moves the paths at wave.points along wave.leaving() to their next facets, wave.points again,

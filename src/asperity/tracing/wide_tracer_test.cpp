@@ -66,7 +66,6 @@ TEST_P(WideTracerOn, LaunchesRowsAsThePlainTracerRayByRay) {
         PathWave wave;
         wide.clear(wave);
         wide.launch_down(place[0], place[1], {i, j, kCount}, {}, wave);
-        wide.land({0, 0, -1}, wave);
         ASSERT_EQ(wave.points.count, kCount);
         int differing = 0;
         for (int k = 0; k < kCount; ++k) {
@@ -119,7 +118,7 @@ TEST_P(WideTracerOn, LaunchesLinesAsThePlainTracerRayByRay) {
         PathWave wave;
         wide.clear(wave);
         ASSERT_TRUE(wide.launch(line, stripe, {}, wave));
-        wide.land(d, wave);
+        wide.land(line, d, wave);
         ASSERT_EQ(wave.points.count, kRays);
         int differing = 0;
         for (int k = 0; k < kRays; ++k) {
@@ -149,7 +148,7 @@ std::vector<FacetId> landed(const WideTracer& wide, LaunchStripe stripe, double 
     for (bool done = false; !done;) {
         wide.clear(wave);
         done = wide.launch(line, stripe, {}, wave);
-        wide.land(d, wave);
+        wide.land(line, d, wave);
         for (std::size_t k = 0; k < wave.points.count; ++k)
             all.emplace_back(wave.points.corner[k], wave.points.side[k]);
     }
