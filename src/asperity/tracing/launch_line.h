@@ -71,6 +71,8 @@ class LaunchLine {
     /// edge is the first below the surface; of the rounds asked for.
     const Triangle* triangles() const { return triangles_.data(); }
     bool swapped() const { return swapped_; }
+    /// Whether it goes towards larger y, or x if it is swapped.
+    bool goes_up() const { return dv_ > 0; }
 
   private:
     /// A vertex, or a step between two, counted from the cell of the start: its distance from the

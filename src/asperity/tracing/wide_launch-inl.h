@@ -95,6 +95,7 @@ class Descent {
     HWY_INLINE bool go(std::size_t room, LaunchHits& hits, std::size_t& counted) {
         Known known = known_of(line_.round(stripe_.round));
         for (Known next; flies(); ++stripe_.round, known = next) {
+            if (known_.cells) fetch_known(line_.round(stripe_.round + 2));
             next = known_of(line_.round(stripe_.round + 1));
             if (!next.all) fetch(line_.round(stripe_.round + 1));
             const LaunchLine::Round& round = line_.round(stripe_.round);
@@ -138,27 +139,45 @@ class Descent {
         return hn::RebindMask(kFloat, hn::Lt(number, hn::Load(kInt, stripe_.rays + k * kLanes)));
     }
 
-    /// Brings into the cache what a round, and the paths that go on from it, will look at first.
+    /// Brings into the cache what a round, and the paths that go on from it, will look at first: the
+    /// far end of it, as the rounds before have brought the rest.
     HWY_INLINE void fetch(const LaunchLine::Round& round) const {
         constexpr int kFloatsOfLine = 16, kBlocksOfLine = 4;
+        constexpr int kAcross = kLaunchGroup + LaunchLine::kReach;
         const Place place = place_of(round);
-        const bool swapped = line_.swapped();
-        const int x = swapped ? place.lowest_y : place.lowest_x,
-                  y = swapped ? place.lowest_x : place.lowest_y;
-        const int across = kLaunchGroup + LaunchLine::kReach, along = LaunchLine::kReach;
-        const int width = swapped ? along : across, depth = swapped ? across : along;
-        for (int j = y; j <= y + depth; ++j) {
-            const float* row = heights_.origin() + std::ptrdiff_t{j} * heights_.pitch();
-            for (int i = x; i < x + width + kFloatsOfLine; i += kFloatsOfLine)
-                __builtin_prefetch(row + i);
-        }
+        const int far = place.lowest_y + (line_.goes_up() ? LaunchLine::kReach : 0);
+        // Every so many columns and rows
+        const auto each = [&](int column, int row, auto fetch_at) HWY_ATTR {
+            if (line_.swapped())
+                for (int y = place.lowest_x; y <= place.lowest_x + kAcross; y += row)
+                    fetch_at(far, y);
+            else
+                for (int y = place.lowest_y; y <= place.lowest_y + LaunchLine::kReach; y += row)
+                    for (int x = place.lowest_x; x < place.lowest_x + kAcross + column; x += column)
+                        fetch_at(x, y);
+        };
+        each(kFloatsOfLine, 1, [&](int x, int y) HWY_ATTR {
+            __builtin_prefetch(heights_.origin() + std::ptrdiff_t{y} * heights_.pitch() + x);
+        });
         if (!grid_.horizon_pays) return;
         const int shift = grid_.pool_shift;
-        for (int j = (y - grid_.middle_y) >> shift; j <= (y + depth - grid_.middle_y) >> shift; ++j)
-            for (int i = (x - grid_.middle_x) >> shift;
-                 i < ((x + width - grid_.middle_x) >> shift) + kBlocksOfLine; i += kBlocksOfLine)
-                __builtin_prefetch(grid_.horizon + (std::ptrdiff_t{j} * grid_.horizon_pitch + i) *
-                                                       Horizon::kSectors);
+        each(kBlocksOfLine << shift, 1 << shift, [&](int x, int y) HWY_ATTR {
+            const std::ptrdiff_t row = (y - grid_.middle_y) >> shift,
+                                 block = (x - grid_.middle_x) >> shift;
+            __builtin_prefetch(grid_.horizon +
+                               (row * grid_.horizon_pitch + block) * Horizon::kSectors);
+        });
+    }
+    /// The same of the counted facets.
+    HWY_INLINE void fetch_known(const LaunchLine::Round& round) const {
+        const Place place = place_of(round);
+        for (int row = place.lowest_y; row <= place.lowest_y + LaunchLine::kReach; ++row)
+            __builtin_prefetch(known_row(row) + place.lowest_x);
+    }
+    /// From within the tile on; beyond its end it begins again.
+    HWY_INLINE const std::uint8_t* known_row(int row) const {
+        return known_.cells +
+               std::ptrdiff_t{row < cells_along_ ? row : row - cells_along_} * known_.pitch;
     }
 
     /// Which of the triangles of a round are counted ones: bit n of a line is set if the one before
@@ -176,13 +195,8 @@ class Descent {
         const Place place = place_of(round);
         const hn::Rebind<std::uint8_t, IntTag> bytes;
         for (int n = 0; n < LaunchLine::kEdges; ++n) {
-            // From within the tile on; beyond its end it begins again
             const LaunchLine::Cell& cell = round.cells[n];
-            const int row = place.y + cell.y;
-            const std::uint8_t* at =
-                known_.cells +
-                std::ptrdiff_t{row < cells_along_ ? row : row - cells_along_} * known_.pitch +
-                (place.x + cell.x);
+            const std::uint8_t* at = known_row(place.y + cell.y) + (place.x + cell.x);
             const Ints bit = all(cell.upper ? CountedFacets::kUpper : CountedFacets::kLower);
             for (std::size_t k = 0; k < kVectors; ++k) {
                 const Ints facets = hn::PromoteTo(kInt, hn::LoadU(bytes, at + k * kLanes));
