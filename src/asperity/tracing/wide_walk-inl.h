@@ -186,7 +186,9 @@ HWY_INLINE void leap(const GroundT& ground, Way& way, const Outlook& look, Float
     constexpr float kWorthwhile = 4;
     const Mask far = hn::And(may, hn::Gt(cells, all(kWorthwhile)));
     if (hn::AllFalse(kFloat, far)) return;
-    length = hn::Mul(length, hn::Min(one, hn::Div(ground.longest_leap, cells)));
+    if (const Mask too_far = hn::And(far, hn::Gt(cells, ground.longest_leap));
+        !hn::AllFalse(kFloat, too_far))
+        length = hn::Mul(length, hn::Min(one, hn::Div(ground.longest_leap, cells)));
     const Floats n_r =
         hn::IfThenElseZero(far, hn::Floor(hn::Add(look.r, hn::Mul(length, way.w_l))));
     const Floats n_l =
