@@ -14,7 +14,7 @@ namespace asperity {
 
 /// Paths in flight at a time: enough to keep the lanes full when most have left, few enough for
 /// the second cache.
-inline constexpr std::size_t kWave = 1024;
+inline constexpr std::size_t kWave = 2048;
 
 /// One value per path. The rest of the last vector, and a whole one more, may be overwritten.
 template <class T>
