@@ -14,8 +14,9 @@ namespace asperity::bench {
 namespace {
 
 constexpr const char* kLegend =
-    "/Embree, /thesis, /plain: ours over the fastest mode of Embree (named beside it), over the\n"
-    "thesis' marching, over our plain tracer. Modes: triangles or grid geometry; 1 ray, packets\n"
+    "/Embree, /thesis, /tuned, /plain: ours over the fastest mode of Embree (named beside it), over\n"
+    "the thesis' marching as printed and tuned, over our plain tracer. Modes: triangles or grid\n"
+    "geometry; 1 ray, packets\n"
     "of 4, 8, 16, streams 1M, NM, Np; c: first segments flagged coherent. same: the plain tracer\n"
     "and Embree, from the same points, differ, as a share of what independent points would; far\n"
     "below 1. own: ours, from points of its own, and Embree differ, in units of what the spread\n"
@@ -25,7 +26,7 @@ constexpr const char* kLegend =
 struct Summary {
     int size = 0;
     std::size_t rows = 0;
-    double over_embree = 0, least_over_embree = 0, over_thesis = 0;
+    double over_embree = 0, least_over_embree = 0, over_thesis = 0, over_tuned = 0;
 };
 
 std::vector<Summary> summaries(const std::vector<Row>& rows) {
@@ -37,14 +38,16 @@ std::vector<Summary> summaries(const std::vector<Row>& rows) {
     }
     std::vector<Summary> result;
     for (const int size : sizes) {
-        std::vector<double> embree, thesis;
+        std::vector<double> embree, thesis, tuned;
         for (const Row& row : rows) {
             if (row.size != size) continue;
             embree.push_back(row.over(row.best_embree()));
             thesis.push_back(row.over(row.find("thesis")));
+            tuned.push_back(row.over(row.find("tuned")));
         }
         result.push_back({size, embree.size(), geometric_mean(embree),
-                          *std::min_element(embree.begin(), embree.end()), geometric_mean(thesis)});
+                          *std::min_element(embree.begin(), embree.end()), geometric_mean(thesis),
+                          geometric_mean(tuned)});
     }
     return result;
 }
@@ -95,8 +98,8 @@ std::string table(const std::vector<Row>& rows) {
                                    "surface", "N", "theta");
     text += fmt::format("{:>9}", "seg/path");
     for (const std::string& name : names) text += fmt::format("{:>9}", name);
-    text += fmt::format("{:>9} {:<8}{:>8}{:>8}{:>8}{:>7}\n", "/Embree", "best", "/thesis", "/plain",
-                        "same", "own");
+    text += fmt::format("{:>9} {:<8}{:>8}{:>8}{:>8}{:>8}{:>7}\n", "/Embree", "best", "/thesis",
+                        "/tuned", "/plain", "same", "own");
     for (const Row& row : rows) {
         text += fmt::format("{:<14}{:>6}{:>6.0f}{:>9.3f}", row.surface, row.size, row.theta_deg,
                             segments_per_path(row));
@@ -106,15 +109,17 @@ std::string table(const std::vector<Row>& rows) {
                                  : fmt::format("{:>9.3f}", m->paths_per_second / 1e6);
         }
         const Measured* best = row.best_embree();
-        text += fmt::format("{:>9.2f} {:<8}{:>8.2f}{:>8.2f}{:>8.3f}{:>7.2f}\n", row.over(best),
-                            best == nullptr ? "-" : best->rival, row.over(row.find("thesis")),
+        text += fmt::format("{:>9.2f} {:<8}{:>8.2f}{:>8.2f}{:>8.2f}{:>8.3f}{:>7.2f}\n",
+                            row.over(best), best == nullptr ? "-" : best->rival,
+                            row.over(row.find("thesis")), row.over(row.find("tuned")),
                             row.over(row.find("plain")), row.tight_disagreement(),
                             row.loose_disagreement());
     }
     for (const Summary& s : summaries(rows)) {
         text += fmt::format(
-            "N = {}, {} rows, geometric means: /Embree {:.2f} (least {:.2f}), /thesis {:.2f}\n",
-            s.size, s.rows, s.over_embree, s.least_over_embree, s.over_thesis);
+            "N = {}, {} rows, geometric means: /Embree {:.2f} (least {:.2f}), /thesis {:.2f}, "
+            "/tuned {:.2f}\n",
+            s.size, s.rows, s.over_embree, s.least_over_embree, s.over_thesis, s.over_tuned);
     }
     return text + kLegend + made_ready(rows);
 }
@@ -126,7 +131,8 @@ nlohmann::ordered_json json(const std::vector<Row>& rows) {
                                    {"rows", s.rows},
                                    {"over_best_embree", s.over_embree},
                                    {"least_over_best_embree", s.least_over_embree},
-                                   {"over_thesis", s.over_thesis}});
+                                   {"over_thesis", s.over_thesis},
+                                   {"over_tuned", s.over_tuned}});
     }
     for (const Row& row : rows) {
         const Measured* best = row.best_embree();
@@ -137,6 +143,7 @@ nlohmann::ordered_json json(const std::vector<Row>& rows) {
                                         {"best_embree", best == nullptr ? "" : best->rival},
                                         {"over_best_embree", row.over(best)},
                                         {"over_thesis", row.over(row.find("thesis"))},
+                                        {"over_tuned", row.over(row.find("tuned"))},
                                         {"over_plain", row.over(row.find("plain"))},
                                         {"disagreement_same_points", row.tight_disagreement()},
                                         {"disagreement_own_points", row.loose_disagreement()}};

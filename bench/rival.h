@@ -33,8 +33,9 @@ std::unique_ptr<Rival> make_own_rival(const Heightfield& surface, int threads);
 /// Asperity's plain tracer, the readable twin of the fast one, from the given points.
 std::unique_ptr<Rival> make_plain_rival(const Heightfield& surface, int threads);
 
-/// The marching of the thesis. The surface must have Diagonal::Anti and cells of side 1.
-std::unique_ptr<Rival> make_thesis_rival(const Heightfield& surface);
+/// The marching of the thesis, as printed or tuned. The surface must have Diagonal::Anti and cells
+/// of side 1.
+std::unique_ptr<Rival> make_thesis_rival(const Heightfield& surface, bool tuned);
 
 /// Which ways to launch rays at Embree take part.
 enum class EmbreeModes {

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ray marching of the thesis, section 3.4, as a competitor.
+// The ray marching of the thesis, section 3.4, as a competitor: as printed, and tuned.
 //
 // From block to block (code 3.5): take the block the point lies in, fill in its four vertices, test
 // its two triangles (Moeller-Trumbore, code 3.6, back faces culled); a hit moves the point there
 // and mirrors the direction; no hit moves the point to the border of the block, found by
-// intersecting the ray with the lines around it (code 3.7), and just across. All in single
-// precision and absolute coordinates, in units of a cell, as the shader does.
+// intersecting the ray with the four lines around it (code 3.7), and just across. All in single
+// precision and absolute coordinates, in units of a cell, as the shader does. A ray that leaves
+// through the side of the tile enters on the other one.
 //
-// What differs is in its favour or for the same workload: of the four lines only the two ahead of
-// the ray are tried; the tests of a triangle are made without branches, and the division only for a
-// hit; a ray that leaves through the side of the tile enters on the other one.
+// As printed: code 3.6 and 3.7 word for word, but that a border may be further away than 1, or
+// slanted rays would never reach it. Tuned: of the four lines only the two ahead are tried, with
+// one division each; the tests of a triangle are made without branches, and the division only for a
+// hit.
 #include "rival.h"
 
 #include <algorithm>
@@ -49,9 +51,39 @@ struct Vertices {
     Float3 v1, v2, v3, v4;
 };
 
+/// Code 3.6: true and the distance in `t` if the ray meets the front of the triangle.
+inline bool ray_triangle_intersect(Float3 origin, Float3 direction, Float3 v0, Float3 v1, Float3 v2,
+                                   float& t) {
+    const Float3 v0v1 = v1 - v0;
+    const Float3 v0v2 = v2 - v0;
+    const Float3 pvec = cross(direction, v0v2);
+    const float det = dot(v0v1, pvec);
+    if (det < kEpsilon) return false;
+    const float inv_det = 1 / det;
+    const Float3 tvec = origin - v0;
+    const float u = dot(tvec, pvec) * inv_det;
+    if (u < 0 || u > 1) return false;
+    const Float3 qvec = cross(tvec, v0v1);
+    const float v = dot(direction, qvec) * inv_det;
+    if (v < 0 || v + u > 1) return false;
+    t = dot(v0v2, qvec) * inv_det;
+    return t > 0;
+}
+
+/// Code 3.7, but for the end of the ray: true and the distance in `t` if the ray meets the line.
+inline bool ray_line_intersect(Float3 origin, Float3 direction, Float3 start, Float3 end, float& t) {
+    const float line_x = end.x - start.x, line_y = end.y - start.y;
+    const float d = direction.x * line_y - direction.y * line_x;
+    if (d == 0) return false;
+    const float u =
+        ((start.x - origin.x) * direction.y - (start.y - origin.y) * direction.x) / d;
+    t = ((start.x - origin.x) * line_y - (start.y - origin.y) * line_x) / d;
+    return !(u < 0 || u > 1 || t < 0);
+}
+
 /// Code 3.6, its conditions times the determinant; true and the distance in `t` if the ray meets
 /// the front of the triangle.
-[[gnu::always_inline]] inline bool ray_triangle_intersect(Float3 origin, Float3 direction,
+[[gnu::always_inline]] inline bool tuned_triangle_intersect(Float3 origin, Float3 direction,
                                                           Float3 v0, Float3 v1, Float3 v2,
                                                           float& t) {
     const Float3 v0v1 = v1 - v0, v0v2 = v2 - v0;
@@ -67,6 +99,7 @@ struct Vertices {
     return true;
 }
 
+template <bool kTuned>
 class ThesisRival : public Rival {
   public:
     explicit ThesisRival(const Heightfield& surface) : surface_(surface) {
@@ -79,7 +112,7 @@ class ThesisRival : public Rival {
         top_ = *high;
     }
 
-    std::string name() const override { return "thesis"; }
+    std::string name() const override { return kTuned ? "tuned" : "thesis"; }
     std::size_t memory_bytes() const override { return 0; }
 
     Tally run(const Workload& workload) const override {
@@ -112,8 +145,9 @@ class ThesisRival : public Rival {
             // Rounding may have put a hit just outside of the tile
             const int i = std::clamp(static_cast<int>(path.origin.x), 0, surface_.nx - 1);
             const int j = std::clamp(static_cast<int>(path.origin.y), 0, surface_.ny - 1);
-            if (!reflect_at_triangle(path, fill_vertices(i, j))) {
-                cross_border(path, i, j);
+            const Vertices block = fill_vertices(i, j);
+            if (!reflect_at_triangle(path, block)) {
+                if (kTuned || !update_cell(path, i, j, block)) cross_border(path, i, j);
             } else if (++hits > bounces) {
                 tally.add_segments(static_cast<std::uint64_t>(hits));
                 tally.add_truncated(1, static_cast<std::uint64_t>(bounces));
@@ -132,19 +166,47 @@ class ThesisRival : public Rival {
                 {x + 1, y + 1, surface_.at(i + 1, j + 1)}};
     }
 
+    static bool intersect(const Path& path, Float3 v0, Float3 v1, Float3 v2, float& t) {
+        return kTuned ? tuned_triangle_intersect(path.origin, path.direction, v0, v1, v2, t)
+                      : ray_triangle_intersect(path.origin, path.direction, v0, v1, v2, t);
+    }
     static bool reflect_at_triangle(Path& path, const Vertices& b) {
         const auto& [origin, direction] = path;
         float t = 0;
         Float3 normal{};
-        if (ray_triangle_intersect(origin, direction, b.v1, b.v2, b.v3, t)) {
+        if (intersect(path, b.v1, b.v2, b.v3, t)) {
             normal = cross(b.v2 - b.v1, b.v3 - b.v1);
-        } else if (ray_triangle_intersect(origin, direction, b.v2, b.v4, b.v3, t)) {
+        } else if (intersect(path, b.v2, b.v4, b.v3, t)) {
             normal = cross(b.v4 - b.v2, b.v3 - b.v2);
         } else {
             return false;
         }
         path.origin = origin + t * direction;
         path.direction = direction - (2 * dot(direction, normal) / dot(normal, normal)) * normal;
+        return true;
+    }
+
+    /// To the nearest of the four lines around the block that lies ahead, and across; false if
+    /// rounding hides all of them.
+    bool update_cell(Path& path, int i, int j, const Vertices& b) const {
+        const Float3 ends[4][2] = {{b.v1, b.v2}, {b.v2, b.v4}, {b.v4, b.v3}, {b.v3, b.v1}};
+        float nearest = std::numeric_limits<float>::infinity();
+        int crossed = -1;
+        for (int n = 0; n < 4; ++n) {
+            float t = 0;
+            if (ray_line_intersect(path.origin, path.direction, ends[n][0], ends[n][1], t) &&
+                t < nearest && (n % 2 == 0 ? path.direction.y > 0 : path.direction.x > 0) ==
+                                   (n == 1 || n == 2)) {
+                nearest = t;
+                crossed = n;
+            }
+        }
+        if (crossed < 0) return false;
+        path.origin = path.origin + nearest * path.direction;
+        if (crossed % 2 == 1)
+            path.origin.x = across(i, path.direction.x, surface_.nx);
+        else
+            path.origin.y = across(j, path.direction.y, surface_.ny);
         return true;
     }
 
@@ -183,8 +245,9 @@ class ThesisRival : public Rival {
 
 }  // namespace
 
-std::unique_ptr<Rival> make_thesis_rival(const Heightfield& surface) {
-    return std::make_unique<ThesisRival>(surface);
+std::unique_ptr<Rival> make_thesis_rival(const Heightfield& surface, bool tuned) {
+    if (tuned) return std::make_unique<ThesisRival<true>>(surface);
+    return std::make_unique<ThesisRival<false>>(surface);
 }
 
 }  // namespace asperity::bench

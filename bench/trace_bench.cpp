@@ -56,7 +56,7 @@ std::vector<Row> race_on(const Heightfield& surface, const Options& options, int
     std::vector<std::unique_ptr<Rival>> rivals;
     if (!options.check) rivals.push_back(make_own_rival(surface, threads));
     rivals.push_back(make_plain_rival(surface, threads));
-    rivals.push_back(make_thesis_rival(surface));
+    for (const bool tuned : {false, true}) rivals.push_back(make_thesis_rival(surface, tuned));
     auto embree = make_embree_rivals(surface, options.modes);
     std::move(embree.begin(), embree.end(), std::back_inserter(rivals));
 
