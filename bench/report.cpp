@@ -14,7 +14,8 @@ namespace asperity::bench {
 namespace {
 
 constexpr const char* kLegend =
-    "/Embree, /thesis, /tuned, /plain: ours over the fastest mode of Embree (named beside it), over\n"
+    "/Embree, /thesis, /tuned, /plain: ours over the fastest mode of Embree (named beside it), "
+    "over\n"
     "the thesis' marching as printed and tuned, over our plain tracer. Modes: triangles or grid\n"
     "geometry; 1 ray, packets\n"
     "of 4, 8, 16, streams 1M, NM, Np; c: first segments flagged coherent. same: the plain tracer\n"
@@ -109,11 +110,11 @@ std::string table(const std::vector<Row>& rows) {
                                  : fmt::format("{:>9.3f}", m->paths_per_second / 1e6);
         }
         const Measured* best = row.best_embree();
-        text += fmt::format("{:>9.2f} {:<8}{:>8.2f}{:>8.2f}{:>8.2f}{:>8.3f}{:>7.2f}\n",
-                            row.over(best), best == nullptr ? "-" : best->rival,
-                            row.over(row.find("thesis")), row.over(row.find("tuned")),
-                            row.over(row.find("plain")), row.tight_disagreement(),
-                            row.loose_disagreement());
+        text +=
+            fmt::format("{:>9.2f} {:<8}{:>8.2f}{:>8.2f}{:>8.2f}{:>8.3f}{:>7.2f}\n", row.over(best),
+                        best == nullptr ? "-" : best->rival, row.over(row.find("thesis")),
+                        row.over(row.find("tuned")), row.over(row.find("plain")),
+                        row.tight_disagreement(), row.loose_disagreement());
     }
     for (const Summary& s : summaries(rows)) {
         text += fmt::format(

@@ -71,12 +71,12 @@ inline bool ray_triangle_intersect(Float3 origin, Float3 direction, Float3 v0, F
 }
 
 /// Code 3.7, but for the end of the ray: true and the distance in `t` if the ray meets the line.
-inline bool ray_line_intersect(Float3 origin, Float3 direction, Float3 start, Float3 end, float& t) {
+inline bool ray_line_intersect(Float3 origin, Float3 direction, Float3 start, Float3 end,
+                               float& t) {
     const float line_x = end.x - start.x, line_y = end.y - start.y;
     const float d = direction.x * line_y - direction.y * line_x;
     if (d == 0) return false;
-    const float u =
-        ((start.x - origin.x) * direction.y - (start.y - origin.y) * direction.x) / d;
+    const float u = ((start.x - origin.x) * direction.y - (start.y - origin.y) * direction.x) / d;
     t = ((start.x - origin.x) * line_y - (start.y - origin.y) * line_x) / d;
     return !(u < 0 || u > 1 || t < 0);
 }
@@ -84,8 +84,8 @@ inline bool ray_line_intersect(Float3 origin, Float3 direction, Float3 start, Fl
 /// Code 3.6, its conditions times the determinant; true and the distance in `t` if the ray meets
 /// the front of the triangle.
 [[gnu::always_inline]] inline bool tuned_triangle_intersect(Float3 origin, Float3 direction,
-                                                          Float3 v0, Float3 v1, Float3 v2,
-                                                          float& t) {
+                                                            Float3 v0, Float3 v1, Float3 v2,
+                                                            float& t) {
     const Float3 v0v1 = v1 - v0, v0v2 = v2 - v0;
     const Float3 pvec = cross(direction, v0v2);
     const float det = dot(v0v1, pvec);
@@ -195,8 +195,8 @@ class ThesisRival : public Rival {
         for (int n = 0; n < 4; ++n) {
             float t = 0;
             if (ray_line_intersect(path.origin, path.direction, ends[n][0], ends[n][1], t) &&
-                t < nearest && (n % 2 == 0 ? path.direction.y > 0 : path.direction.x > 0) ==
-                                   (n == 1 || n == 2)) {
+                t < nearest &&
+                (n % 2 == 0 ? path.direction.y > 0 : path.direction.x > 0) == (n == 1 || n == 2)) {
                 nearest = t;
                 crossed = n;
             }

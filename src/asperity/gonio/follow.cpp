@@ -168,7 +168,7 @@ void Follower::launch_each(const Scene& scene, const LaunchBatch& batch, std::ui
 
 void Follower::reflect(const Scene& scene, bool parallel) {
     reflect_paths(wave_.points, parallel ? &direction_ : nullptr, scene.tracer.heights(),
-                  wave_.leaving(), cosine_);
+                  wave_.leaving(), weights_.empty() ? nullptr : &cosine_);
     // Each facet takes its share
     const std::size_t count = wave_.points.count;
     if (weights_.empty()) return;

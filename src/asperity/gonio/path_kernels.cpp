@@ -14,8 +14,14 @@ namespace {
 
 /// A direction after a reflection.
 struct Mirrored {
-    Floats x, y, z, level, cosine;
+    Floats x, y, z, level;
     Floats d_m;  ///< of the direction before it and the facet's normal (-slope_x, -slope_y, 1)
+    Floats m_m;  ///< of the normal with itself
+
+    /// Between the directions and the normal.
+    HWY_INLINE Floats cosine() const {
+        return hn::Min(all(1.0f), hn::Div(hn::Abs(d_m), hn::Sqrt(m_m)));
+    }
 };
 HWY_INLINE Mirrored mirror(Floats x, Floats y, Floats z, Floats slope_x, Floats slope_y) {
     // d' = d - 2 (d.m) m / m.m about m
@@ -28,14 +34,14 @@ HWY_INLINE Mirrored mirror(Floats x, Floats y, Floats z, Floats slope_x, Floats 
     out.y = hn::Add(y, hn::Mul(share, slope_y));
     out.z = hn::Sub(z, share);
     out.level = hn::Sqrt(hn::Add(hn::Mul(out.x, out.x), hn::Mul(out.y, out.y)));
-    out.cosine = hn::Min(one, hn::Div(hn::Abs(d_m), hn::Sqrt(m_m)));
     out.d_m = d_m;
+    out.m_m = m_m;
     return out;
 }
 
 template <bool kParallel>
 void ReflectPaths(const FacetPoints& points, const Vec3& d, float per_x, float per_y,
-                  Directions& leaving, PerPath<float>& cosine) {
+                  Directions& leaving, PerPath<float>* cosine) {
     const Floats x0 = all(static_cast<float>(d.x)), y0 = all(static_cast<float>(d.y)),
                  z0 = all(static_cast<float>(d.z));
     for (std::size_t k = 0; k < points.count; k += kLanes) {
@@ -50,7 +56,7 @@ void ReflectPaths(const FacetPoints& points, const Vec3& d, float per_x, float p
         store(out.z, leaving.z, k);
         store(out.level, leaving.level, k);
         store(load(points.path, k), leaving.path, k);
-        store(out.cosine, cosine, k);
+        if (cosine) store(out.cosine(), *cosine, k);
     }
 }
 
@@ -153,7 +159,7 @@ class FacetLook {
             only(hn::And(free, in_light), hn::ConvertTo(kInt, hn::Mul(out.d_m, unit_per_z_)));
         hn::StoreU(find_(hn::Mul(mirror_x_, out.x), out.y, out.z), kInt, row.cells + k);
         hn::StoreU(flux, kInt, row.flux + k);
-        if (row.cosine) hn::StoreU(out.cosine, kFloat, row.cosine + k);
+        if (row.cosine) hn::StoreU(out.cosine(), kFloat, row.cosine + k);
         return hn::RebindMask(kFloat, hn::Gt(flux, hn::Zero(kInt)));
     }
 
@@ -198,11 +204,11 @@ void LookAtFacets(const WideGrid& grid, bool equal_area, int rows, int columns, 
 }
 
 void ReflectParallel(const FacetPoints& points, const Vec3& d, float per_x, float per_y,
-                     Directions& leaving, PerPath<float>& cosine) {
+                     Directions& leaving, PerPath<float>* cosine) {
     ReflectPaths<true>(points, d, per_x, per_y, leaving, cosine);
 }
 void ReflectAny(const FacetPoints& points, float per_x, float per_y, Directions& leaving,
-                PerPath<float>& cosine) {
+                PerPath<float>* cosine) {
     ReflectPaths<false>(points, {}, per_x, per_y, leaving, cosine);
 }
 
@@ -219,7 +225,7 @@ HWY_EXPORT(FindCells);
 HWY_EXPORT(LookAtFacets);
 
 void reflect_paths(const FacetPoints& points, const Vec3* parallel, const PaddedHeights& heights,
-                   Directions& leaving, PerPath<float>& cosine) {
+                   Directions& leaving, PerPath<float>* cosine) {
     const auto per_x = static_cast<float>(1 / heights.dx());
     const auto per_y = static_cast<float>(1 / heights.dy());
     if (parallel)

@@ -14,7 +14,7 @@ namespace asperity {
 /// points k, cosine[k] the cosine between it and the facet's normal. Where `parallel` is not null
 /// all paths come along it.
 void reflect_paths(const FacetPoints& points, const Vec3* parallel, const PaddedHeights& heights,
-                   Directions& leaving, PerPath<float>& cosine);
+                   Directions& leaving, PerPath<float>* cosine);
 
 /// Detector::cell_of for the directions of paths, within some 1e-7 rad of the cells' edges.
 /// mirror_x is -1 if the directions are to be mirrored in x, else 1; cos_phi and sin_phi, by path,

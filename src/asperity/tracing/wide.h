@@ -71,7 +71,6 @@ struct Walkers {
     PerPath<float> w, w_l, w_r;  ///< distance of the cell's left corner from the path's line; steps
     PerPath<float> z, z_l, z_r;  ///< height of the path beside that corner; steps
     PerPath<float> climb, level;  ///< of the direction: vertical and horizontal part
-    PerPath<float> passed;        ///< -0: of the cell's two facets, the path stands on the second
     PerPath<std::int32_t> sector, ray;
 };
 

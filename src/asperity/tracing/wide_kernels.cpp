@@ -19,7 +19,6 @@ namespace asperity {
 HWY_EXPORT(LaunchInLines);
 HWY_EXPORT(LaunchStraightDown);
 HWY_EXPORT(PartFree);
-HWY_EXPORT(SetOut);
 HWY_EXPORT(Walk);
 HWY_EXPORT(Release);
 HWY_EXPORT(Land);
@@ -39,13 +38,11 @@ void part_free(const WideGrid& grid, FacetPoints& points, Directions& directions
                Escapes& escapes) {
     HWY_DYNAMIC_DISPATCH(PartFree)(grid, points, directions, escapes);
 }
-void set_out(const WideGrid& grid, const FacetPoints& points, Directions& directions,
-             const PerPath<float>* start_height, Walkers& walkers) {
-    HWY_DYNAMIC_DISPATCH(SetOut)(grid, points, directions, start_height, walkers);
-}
-void walk(const WideGrid& grid, bool from_above, int most_rounds, Walkers& walkers, RawHits& hits,
+void walk(const WideGrid& grid, const FacetPoints& points, Directions& directions,
+          const PerPath<float>* start_height, int most_rounds, Walkers& walkers, RawHits& hits,
           Leavers& leavers) {
-    HWY_DYNAMIC_DISPATCH(Walk)(grid, from_above, most_rounds, walkers, hits, leavers);
+    HWY_DYNAMIC_DISPATCH(Walk)
+    (grid, points, directions, start_height, most_rounds, walkers, hits, leavers);
 }
 void release(const Leavers& leavers, const Directions& directions, bool with_places,
              Escapes& escapes) {

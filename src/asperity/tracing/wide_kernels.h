@@ -36,10 +36,10 @@ void launch_straight_down(const WideGrid& grid, float u, float v, const Launched
                           const CountedFacets& known, FacetPoints& points, std::size_t& counted);
 /// wide_leave-inl.h
 void part_free(const WideGrid& grid, FacetPoints& points, Directions& directions, Escapes& escapes);
-void set_out(const WideGrid& grid, const FacetPoints& points, Directions& directions,
-             const PerPath<float>* start_height, Walkers& walkers);
-/// wide_walk-inl.h: until no path is under way or all have gone `most_rounds` rounds.
-void walk(const WideGrid& grid, bool from_above, int most_rounds, Walkers& walkers, RawHits& hits,
+/// wide_walk-inl.h: from the facets, or from above them at the heights `start_height` if that is
+/// not null, until no path is under way or all have gone `most_rounds` rounds.
+void walk(const WideGrid& grid, const FacetPoints& points, Directions& directions,
+          const PerPath<float>* start_height, int most_rounds, Walkers& walkers, RawHits& hits,
           Leavers& leavers);
 void release(const Leavers& leavers, const Directions& directions, bool with_places,
              Escapes& escapes);

@@ -139,8 +139,8 @@ class Descent {
         return hn::RebindMask(kFloat, hn::Lt(number, hn::Load(kInt, stripe_.rays + k * kLanes)));
     }
 
-    /// Brings into the cache what a round, and the paths that go on from it, will look at first: the
-    /// far end of it, as the rounds before have brought the rest.
+    /// Brings into the cache what a round, and the paths that go on from it, will look at first:
+    /// the far end of it, as the rounds before have brought the rest.
     HWY_INLINE void fetch(const LaunchLine::Round& round) const {
         constexpr int kFloatsOfLine = 16, kBlocksOfLine = 4;
         constexpr int kAcross = kLaunchGroup + LaunchLine::kReach;

@@ -119,66 +119,62 @@ HWY_INLINE Floats clamp_between(Floats w, Floats across) {
     return hn::Min(hn::Max(w, hn::Zero(kFloat)), hn::Mul(across, all(0.9999999f)));
 }
 
-/// Sets every path on its way. Paths start on their facets, or over them at the heights
-/// `start_height`.
+/// Paths of a vector as they are kept in Walkers.
+struct Setting {
+    Ints cell;
+    Floats w, w_l, w_r, z, z_l, z_r;
+    Floats climb, level;
+    Floats passed;  ///< only of paths that set out
+    Ints sector, ray;
+};
+
+/// Sets paths on their way. They start on their facets, or over them at the heights `start_height`.
 template <class GroundT>
-void set_out_on(const GroundT& ground, const FacetPoints& points, Directions& directions,
-                const PerPath<float>* start_height, Walkers& walkers) {
+HWY_INLINE Setting set_out(const GroundT& ground, const FacetPoints& points, Directions& directions,
+                           const PerPath<float>* start_height, std::size_t k) {
     const Floats zero = hn::Zero(kFloat), one = all(1.0f);
-    for (std::size_t k = 0; k < points.count; k += kLanes) {
-        const Floats side = load(points.side, k), u = load(points.u, k), v = load(points.v, k);
-        const Floats x = load(directions.x, k), y = load(directions.y, k),
-                     z = load(directions.z, k);
-        hn::StoreInterleaved4(x, y, z, hn::BitCast(kFloat, load(directions.path, k)), kFloat,
-                              &directions.headings.values[k].x);
-        const Floats here = start_height ? load(*start_height, k)
-                                         : height_at(load(points.height, k), load(points.rise_u, k),
-                                                     load(points.rise_v, k), u, v);
+    const Floats side = load(points.side, k), u = load(points.u, k), v = load(points.v, k);
+    const Floats x = load(directions.x, k), y = load(directions.y, k), z = load(directions.z, k);
+    hn::StoreInterleaved4(x, y, z, hn::BitCast(kFloat, load(directions.path, k)), kFloat,
+                          &directions.headings.values[k].x);
+    const Floats here = start_height ? load(*start_height, k)
+                                     : height_at(load(points.height, k), load(points.rise_u, k),
+                                                 load(points.rise_v, k), u, v);
 
-        // Cells and height per length of path, and how far from the near corner it starts; straight
-        // up is taken for a hair off
-        const Floats level = load(directions.level, k);
-        const Line line = line_of(ground, select(hn::Gt(level, zero), x, all(1e-12f)), y, z);
-        const View view(hn::Lt(x, zero), hn::Lt(y, zero));
-        const Mask upper = negative(side);
-        const Floats p = select(hn::Xor(upper, view.flip_x), hn::Sub(one, u), u);
-        const Floats q = select(hn::Xor(upper, view.flip_y), hn::Sub(one, v), v);
-        const Floats du = hn::Abs(line.du), dv = hn::Abs(line.dv);
-        const Floats rate = line.rate;
-        const Floats w_l = select(view.along, dv, du), w_r = hn::Neg(select(view.along, du, dv));
-        const Floats z_l = hn::Mul(hn::Neg(w_r), rate), z_r = hn::Mul(w_l, rate);
-        const Floats along_r = select(view.along, q, p), along_l = select(view.along, p, q);
-        const auto at_left = [&](Floats l, Floats r) HWY_ATTR {
-            return hn::Sub(hn::Mul(hn::Sub(one, along_l), l), hn::Mul(along_r, r));
-        };
-        const Floats w = clamp_between(at_left(w_l, w_r), hn::Sub(w_l, w_r));
+    // Cells and height per length of path, and how far from the near corner it starts; straight up
+    // is taken for a hair off
+    const Floats level = load(directions.level, k);
+    const Line line = line_of(ground, select(hn::Gt(level, zero), x, all(1e-12f)), y, z);
+    const View view(hn::Lt(x, zero), hn::Lt(y, zero));
+    const Mask upper = negative(side);
+    const Floats p = select(hn::Xor(upper, view.flip_x), hn::Sub(one, u), u);
+    const Floats q = select(hn::Xor(upper, view.flip_y), hn::Sub(one, v), v);
+    const Floats du = hn::Abs(line.du), dv = hn::Abs(line.dv);
+    const Floats w_l = select(view.along, dv, du), w_r = hn::Neg(select(view.along, du, dv));
+    const Floats z_l = hn::Mul(hn::Neg(w_r), line.rate), z_r = hn::Mul(w_l, line.rate);
+    const Floats along_r = select(view.along, q, p), along_l = select(view.along, p, q);
+    const auto at_left = [&](Floats l, Floats r) HWY_ATTR {
+        return hn::Sub(hn::Mul(hn::Sub(one, along_l), l), hn::Mul(along_r, r));
+    };
+    const Floats w = clamp_between(at_left(w_l, w_r), hn::Sub(w_l, w_r));
 
-        // On the second of the two facets? Only one is met if the diagonal is not crossed
-        const Mask on_left =
-            hn::Xor(upper, view.flip_x);  // or, where it runs across, on the far one
-        const Mask far_right = negative(hn::Add(w, w_r));
-        const Mask second = hn::Xor(on_left, hn::AndNot(far_right, view.along));
+    // On the second of the two facets? Only one is met if the diagonal is not crossed
+    const Mask on_left = hn::Xor(upper, view.flip_x);  // or, where it runs across, on the far one
+    const Mask far_right = negative(hn::Add(w, w_r));
+    const Mask second = hn::Xor(on_left, hn::AndNot(far_right, view.along));
 
-        store(cell_of(load(points.corner, k), side), walkers.cell, k);
-        store(w, walkers.w, k);
-        store(w_l, walkers.w_l, k);
-        store(w_r, walkers.w_r, k);
-        store(hn::Add(here, at_left(z_l, z_r)), walkers.z, k);
-        store(z_l, walkers.z_l, k);
-        store(z_r, walkers.z_r, k);
-        store(z, walkers.climb, k);
-        store(level, walkers.level, k);
-        store(hn::IfThenElseZero(second, all(-0.0f)), walkers.passed, k);
-        store(sector_of(x, y), walkers.sector, k);
-        store(hn::Iota(kInt, static_cast<std::int32_t>(k)), walkers.ray, k);
-    }
-    walkers.count = points.count;
-}
-void SetOut(const WideGrid& grid, const FacetPoints& points, Directions& directions,
-            const PerPath<float>* start_height, Walkers& walkers) {
-    on_ground(grid, [&](const auto& ground) HWY_ATTR {
-        set_out_on(ground, points, directions, start_height, walkers);
-    });
+    return {cell_of(load(points.corner, k), side),
+            w,
+            w_l,
+            w_r,
+            hn::Add(here, at_left(z_l, z_r)),
+            z_l,
+            z_r,
+            z,
+            level,
+            hn::IfThenElseZero(second, all(-0.0f)),
+            sector_of(x, y),
+            hn::Iota(kInt, static_cast<std::int32_t>(k))};
 }
 
 }  // namespace asperity::HWY_NAMESPACE

@@ -127,7 +127,6 @@ void WideTracer::fall(PathWave& wave) const {
     }
     for (std::size_t k = 0; k < count; ++k)
         if (!(d.level[k] > 0)) d.x[k] = d.level[k] = kAlmostStraight;
-    set_out(grid_, wave.points, d, &wave.work_->start_height, wave.work_->walkers);
     walk(wave, true);
 }
 
@@ -136,7 +135,6 @@ void WideTracer::leave(PathWave& wave) const {
     wave.turn();
     // Where few are free, the first look around is soon enough
     if (grid_.horizon_pays) part_free(grid_, wave.points, wave.arriving(), wave.escapes);
-    set_out(grid_, wave.points, wave.arriving(), nullptr, wave.work_->walkers);
     walk(wave, false);
 }
 
@@ -144,7 +142,8 @@ void WideTracer::walk(PathWave& wave, bool from_above) const {
     constexpr int kMostRounds = Tracer::kMaxCrossings / (2 * kCellsPerRound);
     PathWaveWork& work = *wave.work_;
     work.raw.count = work.leavers.count = 0;
-    asperity::walk(grid_, from_above, kMostRounds, work.walkers, work.raw, work.leavers);
+    asperity::walk(grid_, wave.points, wave.arriving(), from_above ? &work.start_height : nullptr,
+                   kMostRounds, work.walkers, work.raw, work.leavers);
     for (std::size_t k = 0; k < work.walkers.count; ++k)
         wave.stuck[wave.stuck_count++] =
             wave.arriving().path[static_cast<std::size_t>(work.walkers.ray[k])];

@@ -35,16 +35,16 @@ struct Way {
     Floats above;     ///< clearance times the distance of its two ends
     Mask from_right;  ///< it was the one on the right of the cell before
 
-    HWY_INLINE Way(const Walkers& from, std::size_t k, Mask valid, Ints sector)
-        : cell(only(valid, load(from.cell, k))),
-          w(load(from.w, k)),
-          z(load(from.z, k)),
-          w_l(load(from.w_l, k)),
-          w_r(load(from.w_r, k)),
+    HWY_INLINE Way(const Setting& from, Mask valid)
+        : cell(only(valid, from.cell)),
+          w(from.w),
+          z(from.z),
+          w_l(from.w_l),
+          w_r(from.w_r),
           across(hn::Sub(w_l, w_r)),
-          z_l(load(from.z_l, k)),
-          z_r(load(from.z_r, k)),
-          view(has_bit(sector, 1), has_bit(sector, 2)),
+          z_l(from.z_l),
+          z_r(from.z_r),
+          view(has_bit(from.sector, 1), has_bit(from.sector, 2)),
           step_l(view.step_l()),
           step_r(view.step_r()),
           above(hn::Zero(kFloat)),
@@ -241,32 +241,41 @@ HWY_INLINE std::size_t pack_walkers(Mask going, const Way& way, const Bound& bou
     return pack.count;
 }
 
+/// Paths that are under way, as they were packed.
+HWY_INLINE Setting settled(const Walkers& walkers, std::size_t k) {
+    return {load(walkers.cell, k), load(walkers.w, k),      load(walkers.w_l, k),
+            load(walkers.w_r, k),  load(walkers.z, k),      load(walkers.z_l, k),
+            load(walkers.z_r, k),  load(walkers.climb, k),  load(walkers.level, k),
+            hn::Zero(kFloat),      load(walkers.sector, k), load(walkers.ray, k)};
+}
+
 /// Where a round begins.
 enum class Start { OnFacet, InTheAir, UnderWay };
 
-/// Takes every path `kSteps` cells further and leaves in `walkers`, side by side, those that are
-/// still under way.
-template <Start kStart, int kSteps, class GroundT>
-void walk_round(const GroundT& ground, Walkers& walkers, RawHits& hits, Leavers& leavers) {
+/// Takes paths, setting(k) those from number k on, kCellsPerRound cells further and leaves in
+/// `walkers`, side by side, those that are still under way. walkers.count tells how many set out.
+template <Start kStart, class GroundT, class SettingOf>
+HWY_INLINE void walk_round(const GroundT& ground, SettingOf setting_of, Walkers& walkers,
+                           RawHits& hits, Leavers& leavers) {
     const Floats zero = hn::Zero(kFloat), minus_zero = all(-0.0f);
     std::size_t kept = 0;
     for (std::size_t k = 0; k < walkers.count; k += kLanes) {
         const Mask valid = first_lanes(k, walkers.count);
-        const Bound bound{load(walkers.climb, k), load(walkers.level, k),
-                          only(valid, load(walkers.sector, k)), only(valid, load(walkers.ray, k))};
-        Way way(walkers, k, valid, bound.sector);
+        const Setting setting = setting_of(k);
+        const Bound bound{setting.climb, setting.level, only(valid, setting.sector),
+                          only(valid, setting.ray)};
+        Way way(setting, valid);
 
         // Walk, and remember the first facet that was hit
         const Ints from = way.cell;
         const Floats w0 = way.w, z0 = way.z;
         FirstHit first{zero, zero, way.cell};
-        if constexpr (kStart == Start::OnFacet)
-            cross_cell(ground, way, first, minus_zero, load(walkers.passed, k));
-        else if constexpr (kStart == Start::InTheAir)
-            cross_cell(ground, way, first, load(walkers.passed, k), zero);
-        else
-            cross_cell(ground, way, first, zero, zero);
-        for (int n = 1; n < kSteps; ++n) cross_cell(ground, way, first, zero, zero);
+        cross_cell(ground, way, first,
+                   kStart == Start::OnFacet    ? minus_zero
+                   : kStart == Start::InTheAir ? setting.passed
+                                               : zero,
+                   kStart == Start::OnFacet ? setting.passed : zero);
+        for (int n = 1; n < kCellsPerRound; ++n) cross_cell(ground, way, first, zero, zero);
         const Mask hit = hn::And(valid, negative(first.hit));
         pack_hits(hit, first, from, w0, z0, bound.ray, hits);
 
@@ -283,20 +292,35 @@ void walk_round(const GroundT& ground, Walkers& walkers, RawHits& hits, Leavers&
     walkers.count = kept;
 }
 
-template <class GroundT>
-void walk_on(const GroundT& ground, bool from_above, int most_rounds, Walkers& walkers,
-             RawHits& hits, Leavers& leavers) {
-    if (from_above)
-        walk_round<Start::InTheAir, kCellsPerRound>(ground, walkers, hits, leavers);
-    else
-        walk_round<Start::OnFacet, kCellsPerRound>(ground, walkers, hits, leavers);
-    for (int round = 1; round < most_rounds && walkers.count > 0; ++round)
-        walk_round<Start::UnderWay, kCellsPerRound>(ground, walkers, hits, leavers);
+template <Start kStart, class GroundT>
+void set_out_on(const GroundT& ground, const FacetPoints& points, Directions& directions,
+                const PerPath<float>* start_height, Walkers& walkers, RawHits& hits,
+                Leavers& leavers) {
+    walkers.count = points.count;
+    walk_round<kStart>(
+        ground,
+        [&](std::size_t k)
+            HWY_ATTR { return set_out(ground, points, directions, start_height, k); },
+        walkers, hits, leavers);
 }
-void Walk(const WideGrid& grid, bool from_above, int most_rounds, Walkers& walkers, RawHits& hits,
+template <class GroundT>
+void walk_on(const GroundT& ground, Walkers& walkers, RawHits& hits, Leavers& leavers) {
+    walk_round<Start::UnderWay>(
+        ground, [&](std::size_t k) HWY_ATTR { return settled(walkers, k); }, walkers, hits,
+        leavers);
+}
+
+void Walk(const WideGrid& grid, const FacetPoints& points, Directions& directions,
+          const PerPath<float>* start_height, int most_rounds, Walkers& walkers, RawHits& hits,
           Leavers& leavers) {
     on_ground(grid, [&](const auto& ground) HWY_ATTR {
-        walk_on(ground, from_above, most_rounds, walkers, hits, leavers);
+        if (start_height)
+            set_out_on<Start::InTheAir>(ground, points, directions, start_height, walkers, hits,
+                                        leavers);
+        else
+            set_out_on<Start::OnFacet>(ground, points, directions, nullptr, walkers, hits, leavers);
+        for (int round = 1; round < most_rounds && walkers.count > 0; ++round)
+            walk_on(ground, walkers, hits, leavers);
     });
 }
 
