@@ -19,8 +19,10 @@ enum Dimension : std::uint32_t { kPosition, kAzimuth, kShift, kFirstCell };
 /// Batches are told apart in the upper bits of the counter's index; a batch has fewer rays.
 constexpr int kBatchShift = 40;
 
-/// With fewer rays than one for so many cells it is cheaper to leave lines out.
-constexpr std::uint64_t kMostCellsPerRay = 16;
+/// Where a batch has fewer rays than one for so many cells, it leaves parts of the tile out: what
+/// rays see of the surface is then still in the cache when the next ones come.
+constexpr std::uint64_t kMostCellsPerRay = 4;
+constexpr std::uint64_t kRowsOfBand = 8;
 
 /// (sqrt(5) - 1) / 2 in units of 2^-64.
 constexpr std::uint64_t kGoldenRatio = 0x9e3779b97f4a7c15u;
@@ -139,8 +141,14 @@ LaunchStripe LaunchBatch::stripe(std::uint64_t s) const {
 LaunchRow LaunchBatch::row(std::uint64_t r) const {
     LaunchRow row;
     row.count = row_begin(r + 1) - row_begin(r);
-    // Rows are as far apart as each other
-    row.j = split(static_cast<std::uint64_t>((Wide{r} << 64) / rows_) + shift_.y, cells_y_, row.v);
+    // Rows are as far apart as each other, or in bands that are
+    std::uint64_t y = static_cast<std::uint64_t>((Wide{r} << 64) / rows_);
+    if (rows_ * kMostCellsPerRay < cells_y_) {
+        const std::uint64_t bands = (rows_ + kRowsOfBand - 1) / kRowsOfBand;
+        y = static_cast<std::uint64_t>((Wide{r / kRowsOfBand} << 64) / bands) +
+            static_cast<std::uint64_t>((Wide{r % kRowsOfBand * kMostCellsPerRay} << 64) / cells_y_);
+    }
+    row.j = split(y + shift_.y, cells_y_, row.v);
     // The golden ratio of a cell from row to row; a row shorter than the tile begins elsewhere, too
     row.u = to_unit(shift_.x + r * kGoldenRatio);
     const std::uint64_t golden_cell =
