@@ -32,7 +32,6 @@ void add_to(std::vector<std::uint64_t>& sum, const std::vector<std::uint64_t>& m
 CountedLight::CountedLight(const std::vector<std::uint64_t>& sums, std::size_t channels,
                            std::uint64_t total)
     : reflected_(channels) {
-    __extension__ using Wide = unsigned __int128;
     // The sums so far are rounded, not each by itself, so that nothing is lost
     std::vector<std::uint64_t> so_far(channels);
     for (std::size_t cell = 0; cell < sums.size() / channels; ++cell) {
@@ -41,8 +40,8 @@ CountedLight::CountedLight(const std::vector<std::uint64_t>& sums, std::size_t c
         cells_.push_back(static_cast<std::uint32_t>(cell));
         for (std::size_t c = 0; c < channels; ++c) {
             so_far[c] += sum[c];
-            const auto rounded =
-                static_cast<std::uint64_t>((Wide{so_far[c]} * kRayEnergy + total / 2) / total);
+            const double share = static_cast<double>(so_far[c]) / static_cast<double>(total);
+            const std::uint64_t rounded = to_energy(share);
             energy_.push_back(rounded - reflected_[c]);
             reflected_[c] = rounded;
         }
@@ -123,21 +122,17 @@ void BatchSums::escape_counted(std::uint64_t count, const CountedLight& light) {
 }
 
 bool BatchSums::few_touched() const {
-    constexpr std::size_t kFew = 16;
+    constexpr std::size_t kFew = 4;
     return touched_count_ < cells_ / kFew;
 }
 
 template <class Work>
 void BatchSums::for_touched(Work work) const {
-    if (few_touched()) {
+    // To skip the empty ones among many cells takes longer than to look at them
+    if (few_touched())
         for (std::size_t k = 0; k < touched_count_; ++k) work(std::size_t{touched_[k]});
-        return;
-    }
-    for (std::size_t cell = 0; cell < cells_; ++cell) {
-        std::uint64_t any = 0;
-        for (std::size_t c = 0; c < channels_; ++c) any |= energy_[cell * channels_ + c];
-        if (any != 0) work(cell);
-    }
+    else
+        for (std::size_t cell = 0; cell < cells_; ++cell) work(cell);
 }
 
 void BatchSums::settle(std::vector<std::uint64_t>& account, const PerPath<std::int32_t>& paths,
@@ -155,12 +150,9 @@ void BatchSums::settle(std::vector<std::uint64_t>& account, const PerPath<std::i
 }
 
 void BatchSums::clear() {
-    if (few_touched())
-        for_touched([&](std::size_t cell) {
-            std::fill_n(&energy_[cell * channels_], channels_, std::uint64_t{0});
-        });
-    else
-        std::fill(energy_.begin(), energy_.end(), std::uint64_t{0});
+    for_touched([&](std::size_t cell) {
+        std::fill_n(&energy_[cell * channels_], channels_, std::uint64_t{0});
+    });
     touched_count_ = 0;
     later_.clear();
     later_energy_.clear();
@@ -190,7 +182,7 @@ LayerSums::LayerSums(int cells, int channels, int orders, int bounces, std::uint
 }
 
 std::uint64_t LayerSums::scaled(std::uint64_t energy, std::uint64_t rays) const {
-    if (rays == largest_batch_) return energy;
+    if (rays == largest_batch_ || energy == 0) return energy;
     return static_cast<std::uint64_t>(Wide{energy} * largest_batch_ / rays);
 }
 
@@ -244,27 +236,27 @@ void LayerSums::add_later_orders(const BatchSums& b) {
     }
 }
 
-LayerSums::Estimate LayerSums::estimate(long double sum, long double excess) const {
+LayerSums::Estimate LayerSums::estimate(double sum, double excess) const {
     // Standard error of the mean over batches: sqrt((K sum e^2 - (sum e)^2) / (K - 1)) / K
-    const long double launched =
-        static_cast<long double>(kRayEnergy) * static_cast<long double>(largest_batch_) * batches_;
+    const double launched =
+        static_cast<double>(kRayEnergy) * static_cast<double>(largest_batch_) * batches_;
     Estimate e;
-    e.mean = static_cast<double>(sum / launched);
-    e.error =
-        batches_ < 2
-            ? std::numeric_limits<double>::infinity()
-            : static_cast<double>(std::sqrt(std::max(0.0L, excess) / (batches_ - 1)) / launched);
+    e.mean = sum / launched;
+    e.error = batches_ < 2 ? std::numeric_limits<double>::infinity()
+                           : std::sqrt(std::max(0.0, excess) / (batches_ - 1)) / launched;
     if (sum == 0) e.error = 0;
     return e;
 }
 
-long double LayerSums::excess(Wide products, std::uint64_t a, std::uint64_t b) const {
-    return batches_ * static_cast<long double>(products) -
-           static_cast<long double>(a) * static_cast<long double>(b);
+double LayerSums::excess(Wide products, std::uint64_t a, std::uint64_t b) const {
+    // Exact: however large the products, K batches of e <= 2^64 / K differ by less than 2^126
+    __extension__ using SignedWide = __int128;
+    return static_cast<double>(
+        static_cast<SignedWide>(static_cast<Wide>(batches_) * products - Wide{a} * b));
 }
 
 LayerSums::Estimate LayerSums::estimate(const Spread& s) const {
-    return estimate(static_cast<long double>(s.sum), excess(s.squares, s.sum, s.sum));
+    return estimate(static_cast<double>(s.sum), excess(s.squares, s.sum, s.sum));
 }
 
 LayerSums::Estimate LayerSums::estimate(std::size_t k, std::uint64_t energy) const {
@@ -273,8 +265,8 @@ LayerSums::Estimate LayerSums::estimate(std::size_t k, std::uint64_t energy) con
     if (energy == 0) return estimate(Spread{sum, squares});
     // With n counted rays of energy f each beside e: (e + f n)^2, term by term
     const Spread& n = counted_spread_;
-    const long double f = std::ldexp(static_cast<long double>(energy), -kCountShift);
-    return estimate(static_cast<long double>(sum) + f * static_cast<long double>(n.sum),
+    const double f = std::ldexp(static_cast<double>(energy), -kCountShift);
+    return estimate(static_cast<double>(sum) + f * static_cast<double>(n.sum),
                     excess(squares, sum, sum) +
                         2 * f * excess(cell_spread_.by_counted[k], sum, n.sum) +
                         f * f * excess(n.squares, n.sum, n.sum));

@@ -59,8 +59,8 @@ class BatchSums {
 
   private:
     friend class LayerSums;
-    /// Calls work(cell) for the cells that hold energy: in order if they are many, so that memory
-    /// is gone through in one direction.
+    /// Calls work(cell) for the cells that hold energy; for all cells in order if these are many,
+    /// so that memory is gone through in one direction.
     template <class Work>
     void for_touched(Work work) const;
     bool few_touched() const;
@@ -132,9 +132,9 @@ class LayerSums {
     /// Of a cell and channel, with the counted rays' share of it, `energy` each.
     Estimate estimate(std::size_t k, std::uint64_t energy) const;
     /// From a sum over the K batches and its excess K sum e^2 - (sum e)^2.
-    Estimate estimate(long double sum, long double excess) const;
+    Estimate estimate(double sum, double excess) const;
     /// K times a sum of products less the product of the sums.
-    long double excess(Wide products, std::uint64_t a, std::uint64_t b) const;
+    double excess(Wide products, std::uint64_t a, std::uint64_t b) const;
     std::uint64_t scaled(std::uint64_t energy, std::uint64_t rays) const;
     void add_cells(const BatchSums& batch, std::uint64_t counted);
     void add_later_orders(const BatchSums& batch);
