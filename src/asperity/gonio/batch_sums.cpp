@@ -122,7 +122,7 @@ void BatchSums::escape_counted(std::uint64_t count, const CountedLight& light) {
 }
 
 bool BatchSums::few_touched() const {
-    constexpr std::size_t kFew = 4;
+    constexpr std::size_t kFew = 2;
     return touched_count_ < cells_ / kFew;
 }
 
@@ -176,13 +176,12 @@ LayerSums::LayerSums(int cells, int channels, int orders, int bounces, std::uint
       bounce_spread_(channels_ * bounces_),
       albedo_spread_(channels_),
       light_(light) {
-    cell_spread_.sum.resize(channels_ * cells_);
     cell_spread_.squares.resize(channels_ * cells_);
     if (light && !light->cells().empty()) cell_spread_.by_counted.resize(channels_ * cells_);
 }
 
 std::uint64_t LayerSums::scaled(std::uint64_t energy, std::uint64_t rays) const {
-    if (rays == largest_batch_ || energy == 0) return energy;
+    if (rays == largest_batch_) return energy;
     return static_cast<std::uint64_t>(Wide{energy} * largest_batch_ / rays);
 }
 
@@ -213,13 +212,17 @@ void LayerSums::add(const BatchSums& b) {
 
 void LayerSums::add_cells(const BatchSums& b, std::uint64_t counted) {
     CellSpreads& s = cell_spread_;
-    const bool with_counted = !s.by_counted.empty();
+    const bool with_counted = !s.by_counted.empty(), smaller = b.rays != largest_batch_;
+    if (smaller && s.stretched.empty()) s.stretched.resize(channels_ * cells_);
     b.for_touched([&](std::size_t cell) {
         for (std::size_t c = 0; c < channels_; ++c) {
             const std::size_t k = cell * channels_ + c;
-            energy_[c * cells_ + cell] += b.energy_[k];
-            const std::uint64_t energy = scaled(b.energy_[k], b.rays);
-            s.sum[k] += energy;
+            std::uint64_t energy = b.energy_[k];
+            energy_[c * cells_ + cell] += energy;
+            if (smaller) {
+                energy = scaled(energy, b.rays);
+                s.stretched[k] += energy - b.energy_[k];
+            }
             s.squares[k] += Wide{energy} * energy;
             if (with_counted) s.by_counted[k] += Wide{energy} * counted;
         }
@@ -259,8 +262,11 @@ LayerSums::Estimate LayerSums::estimate(const Spread& s) const {
     return estimate(static_cast<double>(s.sum), excess(s.squares, s.sum, s.sum));
 }
 
-LayerSums::Estimate LayerSums::estimate(std::size_t k, std::uint64_t energy) const {
-    const std::uint64_t sum = cell_spread_.sum[k];
+LayerSums::Estimate LayerSums::estimate(std::size_t cell, std::size_t channel,
+                                        std::uint64_t energy) const {
+    const std::size_t k = cell * channels_ + channel;
+    const std::uint64_t sum = energy_[channel * cells_ + cell] +
+                              (cell_spread_.stretched.empty() ? 0 : cell_spread_.stretched[k]);
     const Wide squares = cell_spread_.squares[k];
     if (energy == 0) return estimate(Spread{sum, squares});
     // With n counted rays of energy f each beside e: (e + f n)^2, term by term
@@ -289,7 +295,7 @@ LayerSums::Errors LayerSums::relative_errors() const {
         // The strongest cells that together carry 90 % of the energy
         std::vector<Estimate> cells;
         for_cells([&](std::size_t cell, std::ptrdiff_t k) {
-            cells.push_back(estimate(cell * channels_ + c, counted_energy(k, c)));
+            cells.push_back(estimate(cell, c, counted_energy(k, c)));
         });
         std::sort(cells.begin(), cells.end(),
                   [](const Estimate& a, const Estimate& b) { return a.mean > b.mean; });
@@ -319,7 +325,7 @@ void LayerSums::write(Layer& layer) const {
             const std::uint64_t energy = counted_energy(k, c);
             layer.energy[c * cells_ + cell] += counted_ * energy;
             layer.stderr_energy[c * cells_ + cell] =
-                static_cast<float>(estimate(cell * channels_ + c, energy).error);
+                static_cast<float>(estimate(cell, c, energy).error);
         }
     });
     layer.absorbed = absorbed_;

@@ -116,11 +116,13 @@ class LayerSums {
             squares += Wide{scaled} * scaled;
         }
     };
-    /// The same for what goes into each cell and channel beside the counted rays, and products with
-    /// their number: [cell * channels + channel].
+    /// For what goes into each cell and channel beside the counted rays, sums of squares and of
+    /// products with their number: [cell * channels + channel].
     struct CellSpreads {
-        std::vector<std::uint64_t> sum;
         std::vector<Wide> squares;
+        /// What scaling adds to the sums, which are those of the energy; none if all batches have
+        /// as many rays as the largest one.
+        std::vector<std::uint64_t> stretched;
         std::vector<Wide> by_counted;  ///< none if there are no counted rays
     };
     /// Mean over the batches as a fraction of the launched energy, and its standard error.
@@ -130,7 +132,7 @@ class LayerSums {
     };
     Estimate estimate(const Spread& spread) const;
     /// Of a cell and channel, with the counted rays' share of it, `energy` each.
-    Estimate estimate(std::size_t k, std::uint64_t energy) const;
+    Estimate estimate(std::size_t cell, std::size_t channel, std::uint64_t energy) const;
     /// From a sum over the K batches and its excess K sum e^2 - (sum e)^2.
     Estimate estimate(double sum, double excess) const;
     /// K times a sum of products less the product of the sums.

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace asperity {
 namespace {
@@ -51,15 +52,15 @@ TEST(Launch, LinesFindEveryPointOfTheTileEquallyLikely) {
     // One ray of each of many batches, told by its line and how far along it lies; chi-square over
     // 12 x 8 parts of the tile, and over where in its cell it starts.
     const Heightfield s = tile(96, 64);
-    for (const std::uint64_t rays : {13, 700}) {
+    for (const auto& [rays, stripes] : {std::pair{13, 1}, {700, 2}, {2000, 3}}) {
         std::vector<double> counts(96), offsets(8);
         constexpr std::uint32_t kBatches = 9600;
         for (std::uint32_t batch = 0; batch < kBatches; ++batch) {
             const LaunchBatch b(s, 1, {1, 0.3, radians(70), false}, LaunchPattern::LowDiscrepancy,
-                                rays, 17, 2, batch);
+                                static_cast<std::uint64_t>(rays), 17, 2, batch);
             ASSERT_EQ(b.order(), LaunchBatch::Order::Lines);
-            ASSERT_EQ(b.stripes(), rays == 13 ? 1 : 3);
-            auto ray = static_cast<std::int32_t>(batch % rays);
+            ASSERT_EQ(b.stripes(), static_cast<std::uint64_t>(stripes));
+            int ray = static_cast<int>(batch) % rays;
             for (std::uint64_t n = 0; n < b.stripes(); ++n) {
                 const LaunchStripe stripe = b.stripe(n);
                 for (std::size_t k = 0; k < static_cast<std::size_t>(stripe.lines); ++k) {
