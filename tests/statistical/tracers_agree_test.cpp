@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The wide tracer against its readable twin, a million rays for every kind of surface: steep and
-// grazing, along the axes, through vertices, reflected. docs/performance.md, "Ties".
+// grazing, along the axes, through vertices, reflected; and a million in lines of light.
+// docs/performance.md, "Ties".
 #include <asperity/tracing/test_tracers.h>
 
 #include <gtest/gtest.h>
@@ -33,6 +34,15 @@ TEST_P(TracersAgree, ForAMillionRays) {
     RecordProperty("other_facet", a.other_facet);
     EXPECT_LE(a.other_end, most);
     EXPECT_LE(a.other_facet, most);
+}
+
+TEST_P(TracersAgree, ForAMillionRaysInLines) {
+    const Heightfield s = test::surface_of(GetParam(), 256);
+    const test::Agreement a = test::follow_lines(s, 1000, 1000);
+    ASSERT_EQ(a.rays, 1000000);
+    RecordProperty("other_facet", a.other_facet);
+    EXPECT_EQ(a.other_end, 0);
+    EXPECT_LE(a.other_facet, static_cast<int>(GetParam().ties * a.rays));
 }
 
 }  // namespace

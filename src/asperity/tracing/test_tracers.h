@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -100,6 +101,87 @@ inline Agreement follow_both(const Heightfield& s, int rays, std::uint64_t seed)
                 a[k].direction = normalize(-reflect(a[k].direction, plain.normal(a[k])));
                 start.push_back(a[k]);
             }
+    }
+    return sum;
+}
+
+/// A slanted direction of light; every fourth runs along an axis or a diagonal.
+inline Vec3 slanted(std::uint64_t n) {
+    const auto q = CounterRandom(5, 1).uniform2(n, 0);
+    const double phi = n % 4 == 0 ? std::floor(8 * q[1]) * kPi / 4 : 2 * kPi * q[1];
+    return -from_spherical(radians(1 + 87 * q[0]), phi);
+}
+
+/// A stripe of lines of `rays` rays each; their last ray starts 128 cells further than the first.
+inline LaunchStripe stripe_of(int first, int lines, int rays, const Vec3& d) {
+    LaunchStripe stripe;
+    stripe.first = first;
+    stripe.lines = lines;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(lines); ++k) {
+        stripe.rays[k] = rays;
+        stripe.phase[k] = 0.618 * static_cast<double>(k + 1);
+        stripe.spacing[k] = -d.z / std::hypot(d.x, d.y) * 128 / rays;
+        stripe.per_spacing[k] = 1 / stripe.spacing[k];
+    }
+    std::fill_n(stripe.shade, kLaunchGroup, -std::numeric_limits<float>::infinity());
+    return stripe;
+}
+
+/// Compares the k-th point of a wave with where the plain tracer's ray has hit.
+inline void compare_point(const Heightfield& s, const FacetPoints& points, std::size_t k,
+                          const Ray& ray, Agreement& sum) {
+    // Corners are counted from the middle of the tile
+    const bool upper = ray.facet == static_cast<int>(Triangle::Upper);
+    const auto tile = [](int a, int n) { return (a % n + n) % n; };
+    const int x = vertex_x(points.corner[k]) + (s.nx / 2 & ~3) - (upper ? 1 : 0);
+    const int y = vertex_y(points.corner[k]) + (s.ny / 2 & ~3) - (upper ? 1 : 0);
+    ++sum.rays;
+    if (tile(x, s.nx) != ray.i || tile(y, s.ny) != ray.j || (points.side[k] < 0) != upper) {
+        ++sum.other_facet;
+        return;
+    }
+    const double u = upper ? 1 - ray.u : ray.u, v = upper ? 1 - ray.v : ray.v;
+    sum.furthest = std::max(sum.furthest, std::hypot(static_cast<double>(points.u[k]) - u,
+                                                     static_cast<double>(points.v[k]) - v));
+}
+
+/// Lines of light of many directions, of `rays` rays each: those of a line land in order, and the
+/// plain tracer follows them one by one.
+inline Agreement follow_lines(const Heightfield& s, int lines, int rays) {
+    const Tracer plain(s);
+    const WideTracer wide(s, 1);
+    Agreement sum;
+    PathWave wave;
+    LaunchLine line;
+    for (int n = 0; n < lines; ++n) {
+        const auto number = static_cast<std::uint64_t>(n);
+        const auto p = CounterRandom(5, 2).uniform2(number, 0);
+        const Vec3 d = slanted(number);
+        const bool along_x = wide.lines_along_x(d);
+        const int first = static_cast<int>((along_x ? s.ny : s.nx) * p[0]);
+        LaunchStripe stripe = stripe_of(first, 1, rays, d);
+        const double phase = stripe.phase[0], spacing = stripe.spacing[0];
+        wide.start(line, p[1], d);
+        int k = 0;
+        for (bool done = false; !done;) {
+            wide.clear(wave);
+            done = wide.launch(line, stripe, {}, wave);
+            wide.land(line, d, wave);
+            for (std::size_t point = 0; point < wave.points.count; ++point, ++k) {
+                Ray ray;
+                (along_x ? ray.j : ray.i) = first;
+                (along_x ? ray.v : ray.u) = p[1];
+                ray.z = double{plain.max_height()} + (phase + k) * spacing;
+                ray.direction = d;
+                RayEnd end;
+                plain.trace({&ray, 1}, {&end, 1});
+                if (end == RayEnd::Hit)
+                    compare_point(s, wave.points, point, ray, sum);
+                else
+                    ++sum.other_end;
+            }
+        }
+        EXPECT_EQ(k, rays);
     }
     return sum;
 }

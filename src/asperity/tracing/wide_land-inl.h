@@ -130,6 +130,49 @@ void LandParallel(const WideGrid& grid, const LaunchLine& line, const LaunchHits
     points.count = hits.count;
 }
 
+/// Rays straight down meet the facet below them; nothing to fly. Those that are to be followed are
+/// appended to `points`.
+void LaunchStraightDown(const WideGrid& grid, float u, float v, const LaunchedRow& row,
+                        const CountedFacets& known, FacetPoints& points, std::size_t& counted) {
+    const Ground<true> ground(grid);
+    const bool upper = u + v >= 1;
+    const int corner = upper ? 1 : 0, step = upper ? -1 : 1;
+    const float* at = grid.middle +
+                      static_cast<std::ptrdiff_t>(row.j + corner - grid.middle_y) * grid.pitch +
+                      (row.i + corner - grid.middle_x);
+    const std::uint8_t* bytes =
+        known.cells ? known.cells + static_cast<std::ptrdiff_t>(row.j) * known.pitch + row.i
+                    : nullptr;
+    const std::uint8_t bit = upper ? CountedFacets::kUpper : CountedFacets::kLower;
+    const hn::Rebind<std::uint8_t, IntTag> byte;
+    for (int k = 0; k < row.count; k += static_cast<int>(kLanes)) {
+        Mask open = first_lanes(static_cast<std::size_t>(k), static_cast<std::size_t>(row.count));
+        if (bytes) {
+            const Ints facets = hn::PromoteTo(kInt, hn::LoadU(byte, bytes + k));
+            const Mask sure =
+                hn::And(open, hn::RebindMask(kFloat, hn::TestBit(facets, all(std::int32_t{bit}))));
+            counted += hn::CountTrue(kFloat, sure);
+            open = hn::AndNot(sure, open);
+            if (hn::AllFalse(kFloat, open)) continue;
+        }
+        const Ints lane = hn::Iota(kInt, k);
+        const Ints x = hn::Add(lane, all(row.i + corner - grid.middle_x));
+        const Ints vertex = ground.wrap(
+            hn::Or(hn::And(x, all(0xffff)), all(pack_vertex(0, row.j + corner - grid.middle_y))));
+        const Floats height = hn::LoadU(kFloat, at + k);
+        const Packer pack(open);
+        pack(vertex, points.corner, points.count);
+        pack(all(upper ? -1.0f : 1.0f), points.side, points.count);
+        pack(all(upper ? 1 - u : u), points.u, points.count);
+        pack(all(upper ? 1 - v : v), points.v, points.count);
+        pack(height, points.height, points.count);
+        pack(hn::Sub(hn::LoadU(kFloat, at + k + step), height), points.rise_u, points.count);
+        pack(hn::Sub(hn::LoadU(kFloat, at + k + step * std::ptrdiff_t{grid.pitch}), height),
+             points.rise_v, points.count);
+        points.count += pack.count;
+    }
+}
+
 }  // namespace asperity::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

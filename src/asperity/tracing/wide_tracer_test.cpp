@@ -4,9 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -39,20 +37,6 @@ TEST_P(WideTracerOn, AgreesWithThePlainTracerRayByRay) {
         }
 }
 
-/// Whether the k-th point of a wave lies where the plain tracer's ray has hit.
-bool same_point(const Heightfield& s, const FacetPoints& points, std::size_t k, const Ray& ray) {
-    // Corners are counted from the middle of the tile
-    const bool upper = ray.facet == static_cast<int>(Triangle::Upper);
-    const auto tile = [](int a, int n) { return (a % n + n) % n; };
-    const int x = vertex_x(points.corner[k]) + (s.nx / 2 & ~3) - (upper ? 1 : 0);
-    const int y = vertex_y(points.corner[k]) + (s.ny / 2 & ~3) - (upper ? 1 : 0);
-    if (tile(x, s.nx) != ray.i || tile(y, s.ny) != ray.j || (points.side[k] < 0) != upper)
-        return false;
-    EXPECT_NEAR(points.u[k], upper ? 1 - ray.u : ray.u, 1e-3);
-    EXPECT_NEAR(points.v[k], upper ? 1 - ray.v : ray.v, 1e-3);
-    return true;
-}
-
 /// Rays straight down onto a row, against the plain tracer's one by one.
 TEST_P(WideTracerOn, LaunchesRowsAsThePlainTracerRayByRay) {
     const Heightfield s = test::surface_of(GetParam(), 128);
@@ -67,73 +51,26 @@ TEST_P(WideTracerOn, LaunchesRowsAsThePlainTracerRayByRay) {
         wide.clear(wave);
         wide.launch_down(place[0], place[1], {i, j, kCount}, {}, wave);
         ASSERT_EQ(wave.points.count, kCount);
-        int differing = 0;
+        test::Agreement sum;
         for (int k = 0; k < kCount; ++k) {
             Ray ray{i + k, j, place[0], place[1], double{plain.max_height()}, {0, 0, -1}};
             RayEnd end;
             plain.trace({&ray, 1}, {&end, 1});
             ASSERT_EQ(end, RayEnd::Hit);
-            differing += same_point(s, wave.points, static_cast<std::size_t>(k), ray) ? 0 : 1;
+            test::compare_point(s, wave.points, static_cast<std::size_t>(k), ray, sum);
         }
-        EXPECT_LE(differing, 1);
+        EXPECT_LE(sum.other_facet, 1);
+        EXPECT_LT(sum.furthest, 1e-3);
     }
 }
 
-/// A slanted direction; every fourth runs along an axis or a diagonal.
-Vec3 slanted(std::uint64_t n) {
-    const auto q = CounterRandom(5, 1).uniform2(n, 0);
-    const double phi = n % 4 == 0 ? std::floor(8 * q[1]) * kPi / 4 : 2 * kPi * q[1];
-    return -from_spherical(radians(1 + 87 * q[0]), phi);
-}
-
-/// A stripe of lines of `rays` rays each, as far apart as their shadows on the plane are short.
-LaunchStripe stripe_of(int first, int lines, int rays, const Vec3& d) {
-    LaunchStripe stripe;
-    stripe.first = first;
-    stripe.lines = lines;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(lines); ++k) {
-        stripe.rays[k] = rays;
-        stripe.phase[k] = 0.618 * static_cast<double>(k + 1);
-        stripe.spacing[k] = -d.z / std::hypot(d.x, d.y) * 128 / rays;
-        stripe.per_spacing[k] = 1 / stripe.spacing[k];
-    }
-    std::fill_n(stripe.shade, kLaunchGroup, -std::numeric_limits<float>::infinity());
-    return stripe;
-}
-
-/// The rays of a line land one after the other: against the plain tracer's one by one.
 TEST_P(WideTracerOn, LaunchesLinesAsThePlainTracerRayByRay) {
     Heightfield s = test::surface_of(GetParam(), 128);
     s.dx = 1.25;
-    const Tracer plain(s);
-    const WideTracer wide(s, 1);
-    for (std::uint64_t n = 0; n < 40; ++n) {
-        const auto p = CounterRandom(5, 2).uniform2(n, 0);
-        const Vec3 d = slanted(n);
-        constexpr int kRays = 300;
-        const int first = static_cast<int>(128 * p[0]);
-        LaunchLine line;
-        LaunchStripe stripe = stripe_of(first, 1, kRays, d);
-        wide.start(line, p[1], d);
-        PathWave wave;
-        wide.clear(wave);
-        ASSERT_TRUE(wide.launch(line, stripe, {}, wave));
-        wide.land(line, d, wave);
-        ASSERT_EQ(wave.points.count, kRays);
-        int differing = 0;
-        for (int k = 0; k < kRays; ++k) {
-            Ray ray;
-            (wide.lines_along_x(d) ? ray.j : ray.i) = first;
-            (wide.lines_along_x(d) ? ray.v : ray.u) = p[1];
-            ray.z = double{plain.max_height()} + (stripe.phase[0] + k) * stripe.spacing[0];
-            ray.direction = d;
-            RayEnd end;
-            plain.trace({&ray, 1}, {&end, 1});
-            ASSERT_EQ(end, RayEnd::Hit);
-            differing += same_point(s, wave.points, static_cast<std::size_t>(k), ray) ? 0 : 1;
-        }
-        EXPECT_LE(differing, 1);
-    }
+    const test::Agreement a = test::follow_lines(s, 40, 300);
+    EXPECT_EQ(a.rays, 12000);
+    EXPECT_LE(a.other_facet, 1);
+    EXPECT_LT(a.furthest, 1e-3);
 }
 
 using FacetId = std::pair<std::int32_t, float>;
@@ -159,12 +96,12 @@ std::vector<FacetId> landed(const WideTracer& wide, LaunchStripe stripe, double 
 TEST_P(WideTracerOn, LaunchesManyLinesAsEachByItself) {
     const WideTracer wide(test::surface_of(GetParam(), 128), 1);
     for (std::uint64_t n = 0; n < 8; ++n) {
-        const Vec3 d = slanted(n);
+        const Vec3 d = test::slanted(n);
         const int first = static_cast<int>(n * 16), lines = kLaunchGroup - static_cast<int>(n % 3);
-        const LaunchStripe stripe = stripe_of(first, lines, 200, d);
+        const LaunchStripe stripe = test::stripe_of(first, lines, 200, d);
         std::vector<FacetId> single;
         for (int k = 0; k < lines; ++k) {
-            LaunchStripe one = stripe_of((first + k) % 128, 1, 200, d);
+            LaunchStripe one = test::stripe_of((first + k) % 128, 1, 200, d);
             one.phase[0] = stripe.phase[k];
             const std::vector<FacetId> of_line = landed(wide, one, 0.3, d);
             single.insert(single.end(), of_line.begin(), of_line.end());
