@@ -13,7 +13,9 @@ inline constexpr std::uint64_t kMaxRaysPerLayer = kRayEnergy - (std::uint64_t{1}
 
 /// The energy of a ray of weight `weight` in [0, 1].
 inline std::uint64_t to_energy(double weight) {
-    return static_cast<std::uint64_t>(weight * static_cast<double>(kRayEnergy) + 0.5);
+    // Over a signed integer, which takes one instruction
+    return static_cast<std::uint64_t>(
+        static_cast<std::int64_t>(weight * static_cast<double>(kRayEnergy) + 0.5));
 }
 
 /// `energy` as a fraction of `rays` launched rays; 0 when none was launched.

@@ -18,7 +18,7 @@ std::size_t index(int a) {
 }
 
 /// Cells are fetched so many paths ahead.
-constexpr std::size_t kAhead = 16;
+constexpr std::size_t kAhead = 48;
 
 /// Numbers of counted rays are summed in units of 2^-kCountShift, as batches are scaled.
 constexpr int kCountShift = 16;
@@ -66,9 +66,9 @@ void BatchSums::escape(const PerPath<std::int32_t>& cells, const PerPath<std::in
     if (kept > 0) {
         const std::size_t first = later_.size();
         later_.resize(first + count);
-        const std::size_t begin = kept * channels_ * cells_;
         for (std::size_t k = 0; k < count; ++k)
-            later_[first + k] = static_cast<std::uint32_t>(begin + index(cells[k]));
+            later_[first + k] =
+                static_cast<std::uint32_t>((kept * cells_ + index(cells[k])) * channels_);
     }
     if (!weights.empty()) {
         escape_weighted(cells, paths, count, order, weights);
@@ -92,24 +92,37 @@ void BatchSums::escape_weighted(const PerPath<std::int32_t>& cells,
                                 const PerPath<std::int32_t>& paths, std::size_t count, int order,
                                 const Weights& weights) {
     const std::size_t bounce = index(order - 1);
-    const std::size_t first_later = later_energy_.size();
+    // What each path carries, channel by channel; kept if it is to be told apart later
     const bool later = std::min(bounce, orders_ - 1) > 0;
-    if (later) later_energy_.resize(first_later + count * channels_);
-    for (std::size_t k = 0; k < count; ++k) {
+    std::vector<std::uint64_t>& kept = later ? later_energy_ : carried_;
+    const std::size_t first = later ? later_energy_.size() : 0;
+    kept.resize(first + count * channels_);
+    std::uint64_t* carried = kept.data() + first;
+    for (std::size_t c = 0; c < channels_; ++c) {
+        const float* weight = weights[c];
+        std::uint64_t sum = 0;
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::uint64_t energy = to_energy(double{weight[paths[k]]});
+            carried[k * channels_ + c] = energy;
+            sum += energy;
+        }
+        escaped_by_bounce_[c * bounces_ + bounce] += sum;
+        absorbed_[c] += count * kRayEnergy - sum;
+    }
+    std::uint32_t* touched = touched_.data() + touched_count_;
+    for (std::size_t k = 0; k < count; ++k, carried += channels_) {
+        __builtin_prefetch(&energy_[index(cells[std::min(k + kAhead, count - 1)]) * channels_], 1);
         std::uint64_t* sums = &energy_[index(cells[k]) * channels_];
         std::uint64_t before = 0, after = 0;
         for (std::size_t c = 0; c < channels_; ++c) {
-            const std::uint64_t energy = to_energy(double{weights[c][index(paths[k])]});
-            if (later) later_energy_[first_later + k * channels_ + c] = energy;
             before |= sums[c];
-            sums[c] += energy;
+            sums[c] += carried[c];
             after |= sums[c];
-            escaped_by_bounce_[c * bounces_ + bounce] += energy;
-            absorbed_[c] += kRayEnergy - energy;
         }
-        touched_[touched_count_] = static_cast<std::uint32_t>(cells[k]);
-        touched_count_ += before == 0 && after != 0 ? 1 : 0;
+        *touched = static_cast<std::uint32_t>(cells[k]);
+        touched += before == 0 && after != 0 ? 1 : 0;
     }
+    touched_count_ = static_cast<std::size_t>(touched - touched_.data());
 }
 
 void BatchSums::escape_counted(std::uint64_t count, const CountedLight& light) {
@@ -218,7 +231,7 @@ void LayerSums::add_cells(const BatchSums& b, std::uint64_t counted) {
         for (std::size_t c = 0; c < channels_; ++c) {
             const std::size_t k = cell * channels_ + c;
             std::uint64_t energy = b.energy_[k];
-            energy_[c * cells_ + cell] += energy;
+            energy_[k] += energy;
             if (smaller) {
                 energy = scaled(energy, b.rays);
                 s.stretched[k] += energy - b.energy_[k];
@@ -231,11 +244,14 @@ void LayerSums::add_cells(const BatchSums& b, std::uint64_t counted) {
 
 void LayerSums::add_later_orders(const BatchSums& b) {
     const bool mirrors = b.later_energy_.empty();
+    const std::uint64_t* carried = b.later_energy_.data();
     for (std::size_t k = 0; k < b.later_.size(); ++k) {
         __builtin_prefetch(&energy_[b.later_[std::min(k + kAhead, b.later_.size() - 1)]], 1);
-        for (std::size_t c = 0; c < channels_; ++c)
-            energy_[b.later_[k] + c * cells_] +=
-                mirrors ? kRayEnergy : b.later_energy_[k * channels_ + c];
+        std::uint64_t* sums = &energy_[b.later_[k]];
+        if (mirrors)
+            *sums += kRayEnergy;
+        else
+            for (std::size_t c = 0; c < channels_; ++c) sums[c] += *carried++;
     }
 }
 
@@ -265,8 +281,8 @@ LayerSums::Estimate LayerSums::estimate(const Spread& s) const {
 LayerSums::Estimate LayerSums::estimate(std::size_t cell, std::size_t channel,
                                         std::uint64_t energy) const {
     const std::size_t k = cell * channels_ + channel;
-    const std::uint64_t sum = energy_[channel * cells_ + cell] +
-                              (cell_spread_.stretched.empty() ? 0 : cell_spread_.stretched[k]);
+    const std::uint64_t sum =
+        energy_[k] + (cell_spread_.stretched.empty() ? 0 : cell_spread_.stretched[k]);
     const Wide squares = cell_spread_.squares[k];
     if (energy == 0) return estimate(Spread{sum, squares});
     // With n counted rays of energy f each beside e: (e + f n)^2, term by term
@@ -316,9 +332,17 @@ void LayerSums::write(Layer& layer) const {
     layer.stuck = stuck_;
     layer.batches = batches_;
     // The first order is what the others leave of the sum of all
-    layer.energy = energy_;
+    layer.energy.resize(energy_.size());
     const std::size_t order = channels_ * cells_;
-    for (std::size_t k = order; k < energy_.size(); ++k) layer.energy[k % order] -= energy_[k];
+    for (std::size_t c = 0; c < channels_; ++c)
+        for (std::size_t cell = 0; cell < cells_; ++cell) {
+            std::uint64_t* out = &layer.energy[c * cells_ + cell];
+            out[0] = energy_[cell * channels_ + c];
+            for (std::size_t o = 1; o < orders_; ++o) {
+                out[o * order] = energy_[o * order + cell * channels_ + c];
+                out[0] -= out[o * order];
+            }
+        }
     layer.stderr_energy.resize(channels_ * cells_);
     for_cells([&](std::size_t cell, std::ptrdiff_t k) {
         for (std::size_t c = 0; c < channels_; ++c) {

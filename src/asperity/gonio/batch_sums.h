@@ -76,6 +76,7 @@ class BatchSums {
     std::vector<std::uint64_t> energy_;        ///< [cell * channels + channel]
     std::vector<std::uint32_t> later_;         ///< places in LayerSums::energy_, first channel
     std::vector<std::uint64_t> later_energy_;  ///< [k * channels + channel]; none: kRayEnergy each
+    std::vector<std::uint64_t> carried_;       ///< working memory of escape_weighted
     std::uint64_t counted_ = 0;                ///< rays of escape_counted: not in energy_
     std::vector<std::uint32_t> touched_;       ///< cells that hold energy, and room for one more
     std::size_t touched_count_ = 0;
@@ -151,7 +152,8 @@ class LayerSums {
     std::uint64_t largest_batch_;
     int batches_ = 0;
     std::uint64_t rays_ = 0, segments_ = 0, reflections_ = 0, stuck_ = 0;
-    std::vector<std::uint64_t> energy_;  ///< as in Layer, but for the first order: sum of all
+    /// [(order * cells + cell) * channels + channel]; first of all the sum of all orders.
+    std::vector<std::uint64_t> energy_;
     std::vector<std::uint64_t> escaped_by_bounce_, absorbed_, truncated_, edge_;
     CellSpreads cell_spread_;
     std::vector<Spread> bounce_spread_;  ///< [channel * bounces + order]

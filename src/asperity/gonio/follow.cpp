@@ -132,7 +132,9 @@ void Follower::follow_launched(const Scene& scene, BatchSums& sums) {
 
 /// Follows the rays that stand at their first facets, or have met none, until the last has ended.
 void Follower::follow_wave(const Scene& scene, std::size_t count, bool parallel, BatchSums& sums) {
-    for (PerPath<float>& weights : weights_) std::fill_n(weights.values, count, 1.0f);
+    // The first reflection of parallel light sets them
+    if (!parallel)
+        for (PerPath<float>& weights : weights_) std::fill_n(weights.values, count, 1.0f);
     for (int reflections = 0;; ++reflections) {
         // Sort what has left by direction
         settle(scene, reflections, sums);
@@ -173,11 +175,15 @@ void Follower::reflect(const Scene& scene, bool parallel) {
     const std::size_t count = wave_.points.count;
     if (weights_.empty()) return;
     std::vector<float*> out;
-    for (PerPath<float>& f : reflectance_) out.push_back(f);
+    for (PerPath<float>& f : parallel ? weights_ : reflectance_) out.push_back(f);
     scene.fresnel.eval({cosine_.values, count}, out);
-    for (std::size_t c = 0; c < weights_.size(); ++c)
-        for (std::size_t k = 0; k < count; ++k)
-            weights_[c][static_cast<std::size_t>(wave_.leaving().path[k])] *= reflectance_[c][k];
+    if (parallel) return;  // path k is at point k
+    const std::int32_t* path = wave_.leaving().path;
+    for (std::size_t c = 0; c < weights_.size(); ++c) {
+        float* weight = weights_[c];
+        const float* share = reflectance_[c];
+        for (std::size_t k = 0; k < count; ++k) weight[path[k]] *= share[k];
+    }
 }
 
 void Follower::settle(const Scene& scene, int reflections, BatchSums& sums) {
