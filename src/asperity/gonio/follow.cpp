@@ -65,8 +65,11 @@ void Follower::finish(const Scene& scene, BatchSums& sums) {
 std::uint64_t Follower::follow_lines(const Scene& scene, const LaunchBatch& batch,
                                      std::uint64_t portion, BatchSums& sums) {
     const CountedFacets known = scene.known ? scene.known->counted() : CountedFacets{};
-    // All stripes go the same way
-    if (portion == 0) scene.tracer.start(line_, batch.offset(), direction_);
+    // Some stripes in a row go the same way; what waits to land has gone the one before
+    if (batch.begins_offset(portion)) {
+        follow_launched(scene, sums);
+        scene.tracer.start(line_, batch.offset(portion), direction_);
+    }
     LaunchStripe stripe = batch.stripe(portion);
     while (!scene.tracer.launch(line_, stripe, known, wave_)) follow_launched(scene, sums);
     return std::accumulate(stripe.rays, stripe.rays + stripe.lines, std::uint64_t{0});

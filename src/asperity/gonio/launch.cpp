@@ -24,6 +24,10 @@ constexpr int kBatchShift = 40;
 constexpr std::uint64_t kMostCellsPerRay = 4;
 constexpr std::uint64_t kRowsOfBand = 8;
 
+/// Lines start at so many places of their cells: light along an axis or a diagonal stays there, so
+/// more places are better, but each costs a way of its own. One for so many rays a cell of the way.
+constexpr std::uint64_t kFewestOffsets = 4, kMostOffsets = 8, kRaysPerCellOfWay = 32;
+
 /// (sqrt(5) - 1) / 2 in units of 2^-64.
 constexpr std::uint64_t kGoldenRatio = 0x9e3779b97f4a7c15u;
 
@@ -106,6 +110,8 @@ void LaunchBatch::lay_out_lines(const Heightfield& surface) {
     const std::uint64_t cells_of_stripe = kLaunchGroup * cells_along;
     stripes_ = std::min((rays_ * kMostCellsPerRay + cells_of_stripe - 1) / cells_of_stripe, all);
     lines_ = stripes_ == all ? cells_across_ : stripes_ * kLaunchGroup;
+    offsets_ = std::min(stripes_, std::clamp(rays_ / (kRaysPerCellOfWay * cells_along),
+                                             kFewestOffsets, kMostOffsets));
     const auto first = random_.bits64(first_, kFirstCell);
     first_cell_ = static_cast<std::uint32_t>((Wide{first[0]} * cells_across_) >> 64);
     first_share_ = first[1];
@@ -116,8 +122,8 @@ std::uint64_t LaunchBatch::line_begin(std::uint64_t line) const {
     return static_cast<std::uint64_t>((share + first_share_) >> 64);
 }
 
-double LaunchBatch::offset() const {
-    return to_unit(shift_.x);
+double LaunchBatch::offset(std::uint64_t s) const {
+    return to_unit(shift_.x + static_cast<std::uint64_t>((Wide{offset_of(s)} << 64) / offsets_));
 }
 
 LaunchStripe LaunchBatch::stripe(std::uint64_t s) const {

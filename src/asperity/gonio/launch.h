@@ -67,8 +67,11 @@ class LaunchBatch {
     /// mirrored or not. Few rays leave parts of the tile out, elsewhere in each batch.
     LaunchStripe stripe(std::uint64_t s) const;
     std::uint64_t stripes() const { return stripes_; }
-    /// Where all lines start in their cells, as WideTracer::start wants it.
-    double offset() const;
+    /// Where the lines of a stripe start in their cells, as WideTracer::start wants it; some
+    /// stripes in a row have it in common.
+    double offset(std::uint64_t s) const;
+    /// Whether stripe s is the first one of its offset.
+    bool begins_offset(std::uint64_t s) const { return s == 0 || offset_of(s) != offset_of(s - 1); }
 
   private:
     /// A point of the tile in units of 2^-64 of its sides.
@@ -78,6 +81,8 @@ class LaunchBatch {
     /// The first ray of a row; rows are as long as each other but for one.
     std::uint64_t row_begin(std::uint64_t row) const { return (row * rays_ + rows_ - 1) / rows_; }
     void lay_out_lines(const Heightfield& surface);
+    /// The number of its offset among offsets_.
+    std::uint64_t offset_of(std::uint64_t s) const { return s * offsets_ / stripes_; }
     /// Rays of the lines before this one.
     std::uint64_t line_begin(std::uint64_t line) const;
     Point stratified_point(std::uint64_t k) const;
@@ -94,7 +99,7 @@ class LaunchBatch {
     std::uint32_t cells_x_, cells_y_;
     double height_;
     // Of lines
-    std::uint64_t stripes_ = 0, lines_ = 0;
+    std::uint64_t stripes_ = 0, lines_ = 0, offsets_ = 0;
     std::uint64_t first_share_ =
         0;  ///< of a ray that the lines before the first one have left over
     std::uint32_t cells_across_ = 0;

@@ -69,7 +69,7 @@ TEST(Launch, LinesFindEveryPointOfTheTileEquallyLikely) {
                         const double along = (stripe.phase[k] + ray) / stripe.rays[k];
                         ++counts[static_cast<std::size_t>(line / 8 * 8 +
                                                           static_cast<int>(8 * along))];
-                        ++offsets[static_cast<std::size_t>(8 * b.offset())];
+                        ++offsets[static_cast<std::size_t>(8 * b.offset(n))];
                     }
                     ray -= stripe.rays[k];
                 }
