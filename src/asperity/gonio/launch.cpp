@@ -26,7 +26,7 @@ constexpr std::uint64_t kRowsOfBand = 8;
 
 /// Lines start at so many places of their cells: light along an axis or a diagonal stays there, so
 /// more places are better, but each costs a way of its own. One for so many rays a cell of the way.
-constexpr std::uint64_t kFewestOffsets = 4, kMostOffsets = 8, kRaysPerCellOfWay = 32;
+constexpr std::uint64_t kFewestOffsets = 4, kMostOffsets = 8, kRaysPerCellOfWay = 64;
 
 /// (sqrt(5) - 1) / 2 in units of 2^-64.
 constexpr std::uint64_t kGoldenRatio = 0x9e3779b97f4a7c15u;

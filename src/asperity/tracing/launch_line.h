@@ -88,14 +88,21 @@ class LaunchLine {
         }
     };
     Vertex step(int x, int y) const { return {x, y, du_ * y - dv_ * x, k_x_ * x + k_y_ * y}; }
-    Edge edge(const Round& round, const Vertex& left, const Vertex& right) const;
-    void add_triangle(Round& round, const Vertex& a, const Vertex& b, const Vertex& c);
+    /// A triangle of a rhombus: its corner O seen from A.
+    struct Half {
+        Vertex corner;
+        bool upper;
+    };
+    Half half(const Vertex& third) const;
+    /// `per_width`: 1 over what the distances of left and right from the line differ by.
+    Edge edge(const Round& round, const Vertex& left, const Vertex& right, double per_width) const;
     void add_round();
 
     bool swapped_ = false;
     int pitch_ = 0;
     double du_ = 0, dv_ = 0, k_x_ = 0, k_y_ = 0;
-    Vertex step_x_{}, step_y_{}, a_{};
+    Vertex step_x_{}, step_y_{}, step_ab_{}, a_{};
+    Half first_{}, second_{};  ///< of a rhombus, before and behind the edge (A, B)
     std::vector<Round> rounds_;
     std::vector<Triangle> triangles_;
 };
