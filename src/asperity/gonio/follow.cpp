@@ -65,8 +65,8 @@ void Follower::finish(const Scene& scene, BatchSums& sums) {
 std::uint64_t Follower::follow_lines(const Scene& scene, const LaunchBatch& batch,
                                      std::uint64_t portion, BatchSums& sums) {
     const CountedFacets known = scene.known ? scene.known->counted() : CountedFacets{};
-    // Some stripes in a row go the same way; what waits to land has gone the one before
-    if (batch.begins_offset(portion)) {
+    // All stripes of a pass go the same way; what waits to land has gone that of the one before
+    if (batch.begins_pass(portion)) {
         follow_launched(scene, sums);
         scene.tracer.start(line_, batch.offset(portion), direction_);
     }

@@ -24,9 +24,19 @@ constexpr int kBatchShift = 40;
 constexpr std::uint64_t kMostCellsPerRay = 4;
 constexpr std::uint64_t kRowsOfBand = 8;
 
-/// Lines start at so many places of their cells: light along an axis or a diagonal stays there, so
-/// more places are better, but each costs a way of its own. One for so many rays a cell of the way.
-constexpr std::uint64_t kFewestOffsets = 4, kMostOffsets = 8, kRaysPerCellOfWay = 64;
+/// Cells a pass over the tile has for a ray, at most so many passes: lines of one pass lie a whole
+/// cell beside each other, so many rays are better put on more lines.
+constexpr std::uint64_t kCellsPerRayOfPass = 2, kMostPasses = 8;
+
+/// Whether lines come again and again through the same places of the cells, as along an axis or a
+/// diagonal: `slope` cells aside for each of `cells` along.
+bool keeps_place(double slope, double cells) {
+    for (double period = 1; period <= 4; ++period) {
+        const double aside = slope * period;
+        if (std::abs(aside - std::round(aside)) * cells < period) return true;
+    }
+    return false;
+}
 
 /// (sqrt(5) - 1) / 2 in units of 2^-64.
 constexpr std::uint64_t kGoldenRatio = 0x9e3779b97f4a7c15u;
@@ -108,35 +118,43 @@ void LaunchBatch::lay_out_lines(const Heightfield& surface) {
     // All lines, or groups of them
     const std::uint64_t all = (cells_across_ + kLaunchGroup - 1) / kLaunchGroup;
     const std::uint64_t cells_of_stripe = kLaunchGroup * cells_along;
-    stripes_ = std::min((rays_ * kMostCellsPerRay + cells_of_stripe - 1) / cells_of_stripe, all);
-    lines_ = stripes_ == all ? cells_across_ : stripes_ * kLaunchGroup;
-    offsets_ = std::min(stripes_, std::clamp(rays_ / (kRaysPerCellOfWay * cells_along),
-                                             kFewestOffsets, kMostOffsets));
+    stripes_of_pass_ =
+        std::min((rays_ * kMostCellsPerRay + cells_of_stripe - 1) / cells_of_stripe, all);
+    lines_of_pass_ = stripes_of_pass_ == all ? cells_across_ : stripes_of_pass_ * kLaunchGroup;
+    const double slope = std::min(per_x, per_y) / std::max(per_x, per_y);
+    const bool stays = keeps_place(slope, static_cast<double>(cells_along));
+    passes_ = std::clamp<std::uint64_t>(kCellsPerRayOfPass * rays_ / (lines_of_pass_ * cells_along),
+                                        stays ? 2 : 1, kMostPasses);
     const auto first = random_.bits64(first_, kFirstCell);
     first_cell_ = static_cast<std::uint32_t>((Wide{first[0]} * cells_across_) >> 64);
     first_share_ = first[1];
 }
 
 std::uint64_t LaunchBatch::line_begin(std::uint64_t line) const {
-    const Wide share = ((Wide{line} * rays_) << 64) / lines_;
+    const Wide share = ((Wide{line} * rays_) << 64) / (passes_ * lines_of_pass_);
     return static_cast<std::uint64_t>((share + first_share_) >> 64);
 }
 
 double LaunchBatch::offset(std::uint64_t s) const {
-    return to_unit(shift_.x + static_cast<std::uint64_t>((Wide{offset_of(s)} << 64) / offsets_));
+    const std::uint64_t pass = s / stripes_of_pass_;
+    return to_unit(shift_.x + static_cast<std::uint64_t>((Wide{pass} << 64) / passes_));
 }
 
 LaunchStripe LaunchBatch::stripe(std::uint64_t s) const {
     LaunchStripe stripe;
-    const std::uint64_t begin = s * kLaunchGroup, end = std::min(begin + kLaunchGroup, lines_);
-    const std::uint64_t left_out = s * (cells_across_ - lines_) / stripes_;
+    const std::uint64_t pass = s / stripes_of_pass_, of_pass = s % stripes_of_pass_;
+    const std::uint64_t first_of_pass = pass * lines_of_pass_;
+    const std::uint64_t begin = of_pass * kLaunchGroup,
+                        end = std::min(begin + kLaunchGroup, lines_of_pass_);
+    const std::uint64_t left_out = of_pass * (cells_across_ - lines_of_pass_) / stripes_of_pass_;
     stripe.first = static_cast<int>((first_cell_ + begin + left_out) % cells_across_);
     stripe.lines = static_cast<int>(end - begin);
-    for (std::uint64_t line = begin; line < end; ++line) {
-        const std::size_t k = static_cast<std::size_t>(line - begin);
+    for (std::size_t k = 0; k < end - begin; ++k) {
+        const std::uint64_t line = first_of_pass + begin + k;
         const std::uint64_t rays = line_begin(line + 1) - line_begin(line);
         stripe.rays[k] = static_cast<std::int32_t>(rays);
-        stripe.phase[k] = to_unit(shift_.y + line * kGoldenRatio);
+        // From line to line as they lie beside each other, those of other passes between them
+        stripe.phase[k] = to_unit(shift_.y + ((begin + k) * passes_ + pass) * kGoldenRatio);
         stripe.spacing[k] = fall_ / static_cast<double>(std::max<std::uint64_t>(rays, 1));
     }
     for (std::size_t k = 0; k < kLaunchGroup; ++k) stripe.per_spacing[k] = stripe.rays[k] / fall_;

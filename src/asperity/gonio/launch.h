@@ -64,14 +64,15 @@ class LaunchBatch {
     LaunchRow row(std::uint64_t r) const;
     std::uint64_t rows() const { return rows_; }
     /// Lines: the s-th stripe of them, s < stripes(), in the frame of a WideTracer, whether that is
-    /// mirrored or not. Few rays leave parts of the tile out, elsewhere in each batch.
+    /// mirrored or not. They go over the tile in passes. Few rays leave parts of it out, elsewhere
+    /// in each batch.
     LaunchStripe stripe(std::uint64_t s) const;
-    std::uint64_t stripes() const { return stripes_; }
-    /// Where the lines of a stripe start in their cells, as WideTracer::start wants it; some
-    /// stripes in a row have it in common.
+    std::uint64_t stripes() const { return passes_ * stripes_of_pass_; }
+    /// Where the lines of a stripe start in their cells, as WideTracer::start wants it: the same
+    /// place in all stripes of a pass.
     double offset(std::uint64_t s) const;
-    /// Whether stripe s is the first one of its offset.
-    bool begins_offset(std::uint64_t s) const { return s == 0 || offset_of(s) != offset_of(s - 1); }
+    /// Whether stripe s is the first one of a pass.
+    bool begins_pass(std::uint64_t s) const { return s % stripes_of_pass_ == 0; }
 
   private:
     /// A point of the tile in units of 2^-64 of its sides.
@@ -81,8 +82,6 @@ class LaunchBatch {
     /// The first ray of a row; rows are as long as each other but for one.
     std::uint64_t row_begin(std::uint64_t row) const { return (row * rays_ + rows_ - 1) / rows_; }
     void lay_out_lines(const Heightfield& surface);
-    /// The number of its offset among offsets_.
-    std::uint64_t offset_of(std::uint64_t s) const { return s * offsets_ / stripes_; }
     /// Rays of the lines before this one.
     std::uint64_t line_begin(std::uint64_t line) const;
     Point stratified_point(std::uint64_t k) const;
@@ -99,7 +98,7 @@ class LaunchBatch {
     std::uint32_t cells_x_, cells_y_;
     double height_;
     // Of lines
-    std::uint64_t stripes_ = 0, lines_ = 0, offsets_ = 0;
+    std::uint64_t passes_ = 0, stripes_of_pass_ = 0, lines_of_pass_ = 0;
     std::uint64_t first_share_ =
         0;  ///< of a ray that the lines before the first one have left over
     std::uint32_t cells_across_ = 0;

@@ -92,7 +92,7 @@ TEST(Launch, LinesHoldAllRaysAndNoneTwice) {
         for (const std::uint64_t rays : {2, 97, 250, 4000, 10007}) {
             const LaunchBatch b(s, 1, {1, 1.2, radians(phi), false}, LaunchPattern::LowDiscrepancy,
                                 rays, 1, 0, 3);
-            std::set<int> lines;
+            std::set<std::pair<int, double>> lines;  // cell and place in it
             std::uint64_t sum = 0;
             std::size_t count = 0;
             const int across =
@@ -100,7 +100,7 @@ TEST(Launch, LinesHoldAllRaysAndNoneTwice) {
             for (std::uint64_t n = 0; n < b.stripes(); ++n) {
                 const LaunchStripe stripe = b.stripe(n);
                 for (int k = 0; k < stripe.lines; ++k) {
-                    lines.insert((stripe.first + k) % across);
+                    lines.insert({(stripe.first + k) % across, b.offset(n)});
                     sum += static_cast<std::uint64_t>(stripe.rays[k]);
                     ++count;
                     // As far as light sinks while it crosses the tile
