@@ -27,9 +27,7 @@ class KnownFacets {
     /// Whether `rays` of a layer are worth the look: one a cell, on a tile that fits the memory.
     static bool pay(const WideTracer& tracer, std::uint64_t rays);
 
-    CountedFacets counted() const {
-        return {cells_.empty() ? nullptr : cells_.data(), pitch_, swapped_};
-    }
+    CountedFacets counted() const { return {cells_.empty() ? nullptr : cells_.data(), pitch_}; }
     /// Where the rays onto them go.
     const CountedLight& light() const { return light_; }
 
@@ -42,7 +40,7 @@ class KnownFacets {
 
     std::vector<std::uint8_t> cells_;  ///< as in CountedFacets
     std::int32_t pitch_ = 0;
-    bool swapped_ = false;
+    bool swapped_ = false;  ///< x and y have changed places
     CountedLight light_;
 };
 

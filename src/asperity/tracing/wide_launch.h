@@ -29,8 +29,8 @@ struct LaunchStripe {
 };
 
 /// What a caller knows beforehand of light of one direction: facets on which it is enough to count
-/// the rays. A byte a cell over a tile of the tracer, in its frame, or x and y exchanged; rows go
-/// on for kSlack cells. Tiles less than 2^15 cells wide only.
+/// the rays. A byte a cell over a tile of the tracer, in its frame, with x and y exchanged where
+/// WideTracer::lines_along_x; rows go on for kSlack cells. Tiles less than 2^15 cells wide only.
 struct CountedFacets {
     static constexpr std::uint8_t kLower = 1;  ///< the cell's lower facet is one of them
     static constexpr std::uint8_t kUpper = 2;
@@ -38,7 +38,6 @@ struct CountedFacets {
 
     const std::uint8_t* cells = nullptr;  ///< [j * pitch + i]; null: none
     std::int32_t pitch = 0;
-    bool swapped = false;  ///< [i * pitch + j] instead
 };
 
 /// Rays straight down, from cell (i, j) on, none beyond the end of the tile.
