@@ -8,7 +8,6 @@
 #include <bit>
 #include <cmath>
 #include <span>
-#include <utility>
 
 namespace asperity {
 
@@ -154,9 +153,10 @@ void KnownFacets::look_at_all(const Look& look, const Run& run) {
         std::vector<std::uint8_t> known;
         const std::size_t end = (part + 1) * rows / parts;
         for (std::size_t j = part * rows / parts; j < end; j += kRowsTogether) {
+            // All of these rows, or none: what is added up must be marked
+            if (!run.keep_going()) return;
             known.clear();
             for (std::size_t row = j; row < std::min(j + kRowsTogether, end); ++row) {
-                if (!run.keep_going()) return;
                 own.look_at(static_cast<int>(row));
                 own.add_light(sums[part], totals[part]);
                 known.insert(known.end(), own.known().begin(), own.known().end());

@@ -110,7 +110,7 @@ LaunchBatch::LaunchBatch(const Heightfield& surface, double height, const Incide
 void LaunchBatch::lay_out_lines(const Heightfield& surface) {
     const Vec3 d = from_spherical(incidence_.theta, incidence_.phi);
     const double per_x = std::abs(d.x) / surface.dx, per_y = std::abs(d.y) / surface.dy;
-    const bool along_x = per_x > per_y;
+    const bool along_x = LaunchLine::along_x(d, surface.dx, surface.dy);
     cells_across_ = along_x ? cells_y_ : cells_x_;
     const std::uint64_t cells_along = along_x ? cells_x_ : cells_y_;
     fall_ = static_cast<double>(cells_along) * d.z / std::max(per_x, per_y);

@@ -99,8 +99,8 @@ class LaunchBatch {
     double height_;
     // Of lines
     std::uint64_t passes_ = 0, stripes_of_pass_ = 0, lines_of_pass_ = 0;
-    std::uint64_t first_share_ =
-        0;  ///< of a ray that the lines before the first one have left over
+    /// Of a ray, in units of 2^-64, that the lines before the first one have left over.
+    std::uint64_t first_share_ = 0;
     std::uint32_t cells_across_ = 0;
     double fall_ = 0;  ///< height by which light sinks along a line
 };

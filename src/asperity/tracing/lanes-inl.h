@@ -13,8 +13,6 @@
 #include <asperity/tracing/wide.h>
 #include <hwy/highway.h>
 
-#include <type_traits>
-
 HWY_BEFORE_NAMESPACE();
 namespace asperity::HWY_NAMESPACE {
 

@@ -4,6 +4,7 @@
 #include <asperity/core/vec.h>
 #include <asperity/tracing/padded_heights.h>
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -57,6 +58,11 @@ class LaunchLine {
     static constexpr int kReach = kSteps + 1;
     static constexpr int kSwappedPitch = 48;
 
+    /// Whether lines of light along `d`, not straight down, lie beside each other in y: it crosses
+    /// more columns of cells of dx x dy than rows.
+    static bool along_x(const Vec3& d, double dx, double dy) {
+        return std::abs(d.x) / dx > std::abs(d.y) / dy;
+    }
     /// Begins a new line at (u, v) in [0, 1] of a cell in direction `d`, d.z < 0, which is in units
     /// of length and in the frame of `heights`; d.x, d.y not both 0. The first ray starts at height
     /// `z`. If `swapped`, x and y change places, but for triangles, and rows are kSwappedPitch

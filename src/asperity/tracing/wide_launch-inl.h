@@ -12,6 +12,7 @@
 
 #include <asperity/tracing/wide_land-inl.h>
 
+#include <algorithm>
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();

@@ -39,7 +39,7 @@ void WideTracer::clear(PathWave& wave) const {
 }
 
 bool WideTracer::lines_along_x(const Vec3& d) const {
-    return std::abs(d.x / heights_.dx()) > std::abs(d.y / heights_.dy());
+    return LaunchLine::along_x(d, heights_.dx(), heights_.dy());
 }
 
 void WideTracer::start(LaunchLine& line, double offset, const Vec3& d) const {

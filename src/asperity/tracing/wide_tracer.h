@@ -76,8 +76,7 @@ class WideTracer {
 
     /// Forgets all paths of the wave.
     void clear(PathWave& wave) const;
-    /// Whether lines of light that travels along `d`, not straight down, lie beside each other in
-    /// y: it crosses more columns of cells than rows.
+    /// LaunchLine::along_x of light that travels along `d`.
     bool lines_along_x(const Vec3& d) const;
     /// The line of light that starts `offset` in [0, 1] into a cell across it, from a border of the
     /// tile on. Periodic surfaces only.

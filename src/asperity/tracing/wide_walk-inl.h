@@ -252,7 +252,7 @@ HWY_INLINE Setting settled(const Walkers& walkers, std::size_t k) {
 /// Where a round begins.
 enum class Start { OnFacet, InTheAir, UnderWay };
 
-/// Takes paths, setting(k) those from number k on, kCellsPerRound cells further and leaves in
+/// Takes paths, setting_of(k) those from number k on, kCellsPerRound cells further and leaves in
 /// `walkers`, side by side, those that are still under way. walkers.count tells how many set out.
 template <Start kStart, class GroundT, class SettingOf>
 HWY_INLINE void walk_round(const GroundT& ground, SettingOf setting_of, Walkers& walkers,
