@@ -57,7 +57,7 @@ class InfoVerb {
         }
         const Measurement m = io::load_measurement(text_of(file_));
         if (json_) {
-            write_json(to_json(m));
+            write_json(to_json(m, io::checksum(m)));
         } else {
             write_out(config_ ? io::to_text(m.experiment) : text_of_result(m, text_of(file_)));
         }

@@ -101,7 +101,7 @@ Json to_json(const Experiment& experiment) {
     return json;
 }
 
-Json to_json(const Measurement& m) {
+Json to_json(const Measurement& m, const std::string& checksum) {
     Json surface = to_json(m.surface);
     surface["name"] = m.surface_name;
     surface["nx"] = m.surface_nx;
@@ -112,7 +112,7 @@ Json to_json(const Measurement& m) {
 
     Json json;
     json["version"] = m.version;
-    json["checksum"] = io::checksum(m);
+    json["checksum"] = checksum;
     json["stopped"] = m.stopped;
     json["launched_total"] = launched_total(m);
     json["rays_per_second"] = rays_per_second(m);

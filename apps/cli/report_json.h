@@ -13,7 +13,8 @@ using Json = nlohmann::ordered_json;
 
 /// The object `info --json` prints. Energies are fractions of the launched energy; `exact` holds
 /// the integers they come from, in units of 2^-32 of a ray, as texts of digits.
-Json to_json(const Measurement& measurement);
+/// `checksum` is io::checksum(measurement).
+Json to_json(const Measurement& measurement, const std::string& checksum);
 Json to_json(const SurfaceStatistics& statistics);
 Json to_json(const Comparison& comparison);
 /// {"rays": "10000", ...}: what --config reads.

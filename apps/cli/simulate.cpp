@@ -99,8 +99,9 @@ class SimulateVerb {
                         "stopped before anything was complete, nothing is "
                         "written");
         }
-        if (output_->count() > 0) io::save_measurement(m, text_of(output_));
-        tell(say, m, run);
+        const std::string checksum =
+            output_->count() > 0 ? io::save_measurement(m, text_of(output_)) : io::checksum(m);
+        tell(say, m, checksum, run);
         return m.stopped ? static_cast<int>(ErrorCode::Stopped) : 0;
     }
 
@@ -123,10 +124,11 @@ class SimulateVerb {
         if (!tiling.empty()) say("surface: " + tiling + "\n");
     }
 
-    void tell(const Talk& say, const Measurement& m, const Run& run) const {
+    void tell(const Talk& say, const Measurement& m, const std::string& checksum,
+              const Run& run) const {
         const bool written = output_->count() > 0;
         if (json_) {
-            Json json = to_json(m);
+            Json json = to_json(m, checksum);
             json["file"] = nullptr;
             if (written) json["file"] = text_of(output_);
             write_json(json);
@@ -147,7 +149,7 @@ class SimulateVerb {
         if (written) {
             say(fmt::format("wrote {}{}\n", text_of(output_), m.stopped ? " (partial)" : ""));
         }
-        say("checksum " + io::checksum(m) + "\n");
+        say("checksum " + checksum + "\n");
     }
 
     ExperimentOptions experiment_;

@@ -54,7 +54,7 @@ BatchSums::BatchSums(int cells, int channels, int orders, int bounces)
       orders_(index(orders)),
       bounces_(index(bounces)),
       energy_(cells_ * channels_),
-      touched_(cells_ + 1),
+      touched_((cells_ + kBlock - 1) / kBlock),
       escaped_by_bounce_(channels_ * bounces_),
       absorbed_(channels_),
       truncated_(channels_),
@@ -76,15 +76,13 @@ void BatchSums::escape(const PerPath<std::int32_t>& cells, const PerPath<std::in
     }
     // Plain pointers and no branch: this is the innermost loop that is not done in lanes
     std::uint64_t* sums = energy_.data();
-    std::uint32_t* touched = touched_.data() + touched_count_;
+    std::uint8_t* touched = touched_.data();
     for (std::size_t k = 0; k < count; ++k) {
         __builtin_prefetch(sums + cells[std::min(k + kAhead, count - 1)], 1);
-        std::uint64_t& sum = sums[cells[k]];
-        *touched = static_cast<std::uint32_t>(cells[k]);
-        touched += sum == 0 ? 1 : 0;
-        sum += kRayEnergy;
+        const std::size_t cell = index(cells[k]);
+        sums[cell] += kRayEnergy;
+        touched[cell / kBlock] = 1;
     }
-    touched_count_ = static_cast<std::size_t>(touched - touched_.data());
     escaped_by_bounce_[bounce] += count * kRayEnergy;
 }
 
@@ -109,20 +107,14 @@ void BatchSums::escape_weighted(const PerPath<std::int32_t>& cells,
         escaped_by_bounce_[c * bounces_ + bounce] += sum;
         absorbed_[c] += count * kRayEnergy - sum;
     }
-    std::uint32_t* touched = touched_.data() + touched_count_;
+    std::uint64_t* energy = energy_.data();
+    std::uint8_t* touched = touched_.data();
     for (std::size_t k = 0; k < count; ++k, carried += channels_) {
-        __builtin_prefetch(&energy_[index(cells[std::min(k + kAhead, count - 1)]) * channels_], 1);
-        std::uint64_t* sums = &energy_[index(cells[k]) * channels_];
-        std::uint64_t before = 0, after = 0;
-        for (std::size_t c = 0; c < channels_; ++c) {
-            before |= sums[c];
-            sums[c] += carried[c];
-            after |= sums[c];
-        }
-        *touched = static_cast<std::uint32_t>(cells[k]);
-        touched += before == 0 && after != 0 ? 1 : 0;
+        __builtin_prefetch(energy + index(cells[std::min(k + kAhead, count - 1)]) * channels_, 1);
+        const std::size_t cell = index(cells[k]);
+        for (std::size_t c = 0; c < channels_; ++c) energy[cell * channels_ + c] += carried[c];
+        touched[cell / kBlock] = 1;
     }
-    touched_count_ = static_cast<std::size_t>(touched - touched_.data());
 }
 
 void BatchSums::escape_counted(std::uint64_t count, const CountedLight& light) {
@@ -134,18 +126,11 @@ void BatchSums::escape_counted(std::uint64_t count, const CountedLight& light) {
     }
 }
 
-bool BatchSums::few_touched() const {
-    constexpr std::size_t kFew = 2;
-    return touched_count_ < cells_ / kFew;
-}
-
 template <class Work>
 void BatchSums::for_touched(Work work) const {
-    // To skip the empty ones among many cells takes longer than to look at them
-    if (few_touched())
-        for (std::size_t k = 0; k < touched_count_; ++k) work(std::size_t{touched_[k]});
-    else
-        for (std::size_t cell = 0; cell < cells_; ++cell) work(cell);
+    for (std::size_t block = 0; block < touched_.size(); ++block)
+        if (touched_[block])
+            work(block * kBlock * channels_, std::min((block + 1) * kBlock, cells_) * channels_);
 }
 
 void BatchSums::settle(std::vector<std::uint64_t>& account, const PerPath<std::int32_t>& paths,
@@ -163,10 +148,10 @@ void BatchSums::settle(std::vector<std::uint64_t>& account, const PerPath<std::i
 }
 
 void BatchSums::clear() {
-    for_touched([&](std::size_t cell) {
-        std::fill_n(&energy_[cell * channels_], channels_, std::uint64_t{0});
+    for_touched([&](std::size_t begin, std::size_t end) {
+        std::fill(energy_.data() + begin, energy_.data() + end, std::uint64_t{0});
     });
-    touched_count_ = 0;
+    std::fill(touched_.begin(), touched_.end(), std::uint8_t{0});
     later_.clear();
     later_energy_.clear();
     for (auto* account : {&escaped_by_bounce_, &absorbed_, &truncated_, &edge_})
@@ -225,19 +210,23 @@ void LayerSums::add(const BatchSums& b) {
 
 void LayerSums::add_cells(const BatchSums& b, std::uint64_t counted) {
     CellSpreads& s = cell_spread_;
-    const bool with_counted = !s.by_counted.empty(), smaller = b.rays != largest_batch_;
+    const bool smaller = b.rays != largest_batch_;
     if (smaller && s.stretched.empty()) s.stretched.resize(channels_ * cells_);
-    b.for_touched([&](std::size_t cell) {
-        for (std::size_t c = 0; c < channels_; ++c) {
-            const std::size_t k = cell * channels_ + c;
-            std::uint64_t energy = b.energy_[k];
-            energy_[k] += energy;
+    const std::uint64_t* added = b.energy_.data();
+    std::uint64_t* sums = energy_.data();
+    Wide* squares = s.squares.data();
+    Wide* by_counted = s.by_counted.empty() ? nullptr : s.by_counted.data();
+    b.for_touched([&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            std::uint64_t energy = added[k];
+            if (energy == 0) continue;
+            sums[k] += energy;
             if (smaller) {
                 energy = scaled(energy, b.rays);
-                s.stretched[k] += energy - b.energy_[k];
+                s.stretched[k] += energy - added[k];
             }
-            s.squares[k] += Wide{energy} * energy;
-            if (with_counted) s.by_counted[k] += Wide{energy} * counted;
+            squares[k] += Wide{energy} * energy;
+            if (by_counted) by_counted[k] += Wide{energy} * counted;
         }
     });
 }
@@ -275,11 +264,11 @@ double LayerSums::excess(Wide products, std::uint64_t a, std::uint64_t b) const 
 }
 
 LayerSums::Estimate LayerSums::estimate(const Spread& s) const {
-    return estimate(static_cast<double>(s.sum), excess(s.squares, s.sum, s.sum));
+    return estimate(static_cast<double>(s.sum), excess(s));
 }
 
-LayerSums::Estimate LayerSums::estimate(std::size_t cell, std::size_t channel,
-                                        std::uint64_t energy) const {
+LayerSums::Estimate LayerSums::estimate(std::size_t cell, std::size_t channel, std::uint64_t energy,
+                                        double of_counted) const {
     const std::size_t k = cell * channels_ + channel;
     const std::uint64_t sum =
         energy_[k] + (cell_spread_.stretched.empty() ? 0 : cell_spread_.stretched[k]);
@@ -291,7 +280,7 @@ LayerSums::Estimate LayerSums::estimate(std::size_t cell, std::size_t channel,
     return estimate(static_cast<double>(sum) + f * static_cast<double>(n.sum),
                     excess(squares, sum, sum) +
                         2 * f * excess(cell_spread_.by_counted[k], sum, n.sum) +
-                        f * f * excess(n.squares, n.sum, n.sum));
+                        f * f * of_counted);
 }
 
 template <class Work>
@@ -306,12 +295,13 @@ void LayerSums::for_cells(Work work) const {
 
 LayerSums::Errors LayerSums::relative_errors() const {
     Errors worst;
+    const double of_counted = excess(counted_spread_);
     for (std::size_t c = 0; c < channels_; ++c) {
         worst.albedo = std::max(worst.albedo, estimate(albedo_spread_[c]).relative());
         // The strongest cells that together carry 90 % of the energy
         std::vector<Estimate> cells;
         for_cells([&](std::size_t cell, std::ptrdiff_t k) {
-            cells.push_back(estimate(cell, c, counted_energy(k, c)));
+            cells.push_back(estimate(cell, c, counted_energy(k, c), of_counted));
         });
         std::sort(cells.begin(), cells.end(),
                   [](const Estimate& a, const Estimate& b) { return a.mean > b.mean; });
@@ -331,34 +321,28 @@ void LayerSums::write(Layer& layer) const {
     layer.reflections = reflections_;
     layer.stuck = stuck_;
     layer.batches = batches_;
-    // The first order is what the others leave of the sum of all
     layer.energy.resize(energy_.size());
-    const std::size_t order = channels_ * cells_;
-    for (std::size_t c = 0; c < channels_; ++c)
-        for (std::size_t cell = 0; cell < cells_; ++cell) {
-            std::uint64_t* out = &layer.energy[c * cells_ + cell];
-            out[0] = energy_[cell * channels_ + c];
-            for (std::size_t o = 1; o < orders_; ++o) {
-                out[o * order] = energy_[o * order + cell * channels_ + c];
-                out[0] -= out[o * order];
-            }
-        }
     layer.stderr_energy.resize(channels_ * cells_);
+    layer.escaped.assign(channels_, 0);
+    const std::size_t order = channels_ * cells_;
+    const double of_counted = excess(counted_spread_);
     for_cells([&](std::size_t cell, std::ptrdiff_t k) {
         for (std::size_t c = 0; c < channels_; ++c) {
-            const std::uint64_t energy = counted_energy(k, c);
-            layer.energy[c * cells_ + cell] += counted_ * energy;
+            std::uint64_t* out = &layer.energy[c * cells_ + cell];
+            const std::uint64_t* sums = &energy_[cell * channels_ + c];
+            const std::uint64_t each = counted_energy(k, c), all = sums[0] + counted_ * each;
+            layer.escaped[c] += all;
+            // The first order is what the others leave of the sum of all
+            out[0] = all;
+            for (std::size_t o = 1; o < orders_; ++o) out[0] -= out[o * order] = sums[o * order];
             layer.stderr_energy[c * cells_ + cell] =
-                static_cast<float>(estimate(cell, c, energy).error);
+                all == 0 ? 0 : static_cast<float>(estimate(cell, c, each, of_counted).error);
         }
     });
     layer.absorbed = absorbed_;
     layer.truncated = truncated_;
     layer.edge = edge_;
     layer.escaped_by_bounce = escaped_by_bounce_;
-    layer.escaped.assign(channels_, 0);
-    for (std::size_t k = 0; k < layer.energy.size(); ++k)
-        layer.escaped[k / cells_ % channels_] += layer.energy[k];
 
     layer.stderr_albedo.clear();
     for (const Spread& s : albedo_spread_) layer.stderr_albedo.push_back(estimate(s).error);

@@ -52,23 +52,23 @@ class BatchSums {
                       const Weights& weights) {
         settle(edge_, paths, count, weights);
     }
-    /// Forgets everything; cost: the cells touched.
+    /// Forgets everything; cost: the cells touched, and their neighbours.
     void clear();
 
     std::uint64_t rays = 0, segments = 0, reflections = 0, stuck = 0;
 
   private:
     friend class LayerSums;
-    /// Calls work(cell) for the cells that hold energy; for all cells in order if these are many,
-    /// so that memory is gone through in one direction.
+    /// Calls work(begin, end) for blocks of cells that hold energy, as places in energy_.
     template <class Work>
     void for_touched(Work work) const;
-    bool few_touched() const;
     /// Books the paths' energy under `account` and the rest of it as absorbed.
     void settle(std::vector<std::uint64_t>& account, const PerPath<std::int32_t>& paths,
                 std::size_t count, const Weights& weights);
     void escape_weighted(const PerPath<std::int32_t>& cells, const PerPath<std::int32_t>& paths,
                          std::size_t count, int order, const Weights& weights);
+
+    static constexpr std::size_t kBlock = 16;  ///< cells
 
     std::size_t cells_, channels_, orders_, bounces_;
     // All orders of a cell together, so that few bytes are touched at random; what is of a later
@@ -78,8 +78,7 @@ class BatchSums {
     std::vector<std::uint64_t> later_energy_;  ///< [k * channels + channel]; none: kRayEnergy each
     std::vector<std::uint64_t> carried_;       ///< working memory of escape_weighted
     std::uint64_t counted_ = 0;                ///< rays of escape_counted: not in energy_
-    std::vector<std::uint32_t> touched_;       ///< cells that hold energy, and room for one more
-    std::size_t touched_count_ = 0;
+    std::vector<std::uint8_t> touched_;        ///< by block of cells: whether it holds energy
     std::vector<std::uint64_t> escaped_by_bounce_;  ///< [channel * bounces + order]
     std::vector<std::uint64_t> absorbed_, truncated_, edge_;
 };
@@ -132,12 +131,17 @@ class LayerSums {
         double relative() const { return mean > 0 ? error / mean : 0.0; }
     };
     Estimate estimate(const Spread& spread) const;
-    /// Of a cell and channel, with the counted rays' share of it, `energy` each.
-    Estimate estimate(std::size_t cell, std::size_t channel, std::uint64_t energy) const;
+    /// Of a cell and channel, with the counted rays' share of it, `energy` each; `of_counted` is
+    /// the excess of their number.
+    Estimate estimate(std::size_t cell, std::size_t channel, std::uint64_t energy,
+                      double of_counted) const;
     /// From a sum over the K batches and its excess K sum e^2 - (sum e)^2.
     Estimate estimate(double sum, double excess) const;
     /// K times a sum of products less the product of the sums.
     double excess(Wide products, std::uint64_t a, std::uint64_t b) const;
+    double excess(const Spread& spread) const {
+        return excess(spread.squares, spread.sum, spread.sum);
+    }
     std::uint64_t scaled(std::uint64_t energy, std::uint64_t rays) const;
     void add_cells(const BatchSums& batch, std::uint64_t counted);
     void add_later_orders(const BatchSums& batch);

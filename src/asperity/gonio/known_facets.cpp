@@ -112,14 +112,15 @@ class KnownFacets::Look {
     std::vector<std::vector<float>> reflectance_;  ///< [channel]; none for perfect mirrors
 };
 
-KnownFacets::KnownFacets(const Scene& scene, const Incidence& incidence, const Run& run) {
+KnownFacets::KnownFacets(const Scene& scene, const Incidence& incidence, const Run& run,
+                         int threads) {
     const Look look(scene, incidence);
     if (!worthwhile(look, run)) return;
     swapped_ = scene.tracer.lines_along_x(look.direction());
     const int rows = swapped_ ? look.cells_x() : look.cells_y();
     pitch_ = (swapped_ ? look.cells_y() : look.cells_x()) + CountedFacets::kSlack;
     cells_.assign(static_cast<std::size_t>(pitch_) * static_cast<std::size_t>(rows), 0);
-    look_at_all(look, run);
+    look_at_all(look, run, threads);
     // Rows go on at their beginning
     const int cells = pitch_ - CountedFacets::kSlack;
     for (int j = 0; j < rows; ++j) {
@@ -142,12 +143,12 @@ bool KnownFacets::worthwhile(const Look& look, const Run& run) const {
 }
 
 /// Marks the known facets, and adds up what they send into each cell of the detector.
-void KnownFacets::look_at_all(const Look& look, const Run& run) {
-    const auto parts = static_cast<std::size_t>(run.threads());
+void KnownFacets::look_at_all(const Look& look, const Run& run, int threads) {
+    const auto parts = static_cast<std::size_t>(threads);
     const auto rows = static_cast<std::size_t>(look.cells_y());
     std::vector<std::vector<std::uint64_t>> sums(parts);
     std::vector<std::uint64_t> totals(parts);
-    parallel_for(parts, run.threads(), [&](std::size_t part) {
+    parallel_for(parts, threads, [&](std::size_t part) {
         Look own = look;
         sums[part].assign(look.detector_cells() * look.channels(), 0);
         std::vector<std::uint8_t> known;

@@ -19,10 +19,10 @@ class KnownFacets {
   public:
     /// Knows none.
     KnownFacets() = default;
-    /// Looks at all facets, on run.threads() threads, until it is stopped: what was not looked at
-    /// is not known. Knows none when a look here and there finds too few. Cost: less than a ray a
+    /// Looks at all facets, on so many threads, until the run is stopped: what was not looked at is
+    /// not known. Knows none when a look here and there finds too few. Cost: less than a ray a
     /// cell; a byte a cell. Depends on neither the number of threads nor the instruction set.
-    KnownFacets(const Scene& scene, const Incidence& incidence, const Run& run);
+    KnownFacets(const Scene& scene, const Incidence& incidence, const Run& run, int threads = 1);
 
     /// Whether `rays` of a layer are worth the look: one a cell, on a tile that fits the memory.
     static bool pay(const WideTracer& tracer, std::uint64_t rays);
@@ -35,7 +35,7 @@ class KnownFacets {
     /// Looks at parallel light on the facets, a row at a time.
     class Look;
     bool worthwhile(const Look& look, const Run& run) const;
-    void look_at_all(const Look& look, const Run& run);
+    void look_at_all(const Look& look, const Run& run, int threads);
     void mark(std::size_t j, const std::vector<std::uint8_t>& known, std::size_t width);
 
     std::vector<std::uint8_t> cells_;  ///< as in CountedFacets

@@ -9,12 +9,14 @@
 #include <asperity/core/version.h>
 #include <asperity/gonio/follow.h>
 #include <asperity/gonio/known_facets.h>
+#include <asperity/gonio/layer_report.h>
+#include <asperity/gonio/layer_schedule.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
+#include <atomic>
 #include <cmath>
-#include <memory>
+#include <deque>
 #include <mutex>
 #include <optional>
 
@@ -24,15 +26,6 @@ namespace {
 
 /// A batch larger than this is split: a stopped run loses the batches under way.
 constexpr std::uint64_t kLargestBatch = 1 << 20;
-
-/// A layer with nothing in it.
-Layer named_layer(const Incidence& light) {
-    Layer layer;
-    layer.number = light.number;
-    layer.theta_i = light.theta;
-    layer.phi_i = light.phi;
-    return layer;
-}
 
 /// How the rays of a layer are divided into independent batches.
 struct BatchPlan {
@@ -63,39 +56,30 @@ BatchPlan plan_batches(const Heightfield& surface, const RunSettings& run) {
     return plan;
 }
 
-/// Shows layers to the listener while they grow.
-class LayerPreview {
-  public:
-    explicit LayerPreview(const MeasureListener& listener) : listener_(listener) {}
+/// A layer on its way.
+struct LayerInWork {
+    LayerInWork(const Incidence& incidence, std::uint32_t number)
+        : light(incidence), stream(number) {}
 
-    /// Shows what `sums` hold if it is time for it; from any thread. `guard` is held while they are
-    /// copied.
-    void show(const Incidence& light, const LayerSums& sums, std::mutex& guard) {
-        if (!listener_.layer) return;
-        const std::unique_lock showing(mutex_, std::try_to_lock);
-        const auto begin = Clock::now();
-        if (!showing || begin < next_) return;
-        Layer layer = named_layer(light);
-        {
-            const std::scoped_lock lock(guard);
-            if (sums.batches() < 2) return;
-            sums.write(layer);
-        }
-        listener_.layer(layer, false);
-        const auto end = Clock::now();
-        next_ = std::max(begin + kShortestPause, end + 9 * (end - begin));
+    const Incidence light;
+    const std::uint32_t stream;      ///< of random numbers
+    KnownFacets known;               ///< once it is prepared
+    std::mutex mutex;                ///< guards the sums
+    std::optional<LayerSums> sums;   ///< once a batch is done, until it is complete
+    std::vector<std::string> notes;  ///< for the reader of the result
+
+    /// What the sums hold; false if that is too little to tell errors.
+    bool write(Layer& layer) const {
+        if (!sums || sums->batches() < 2) return false;
+        layer.number = light.number;
+        layer.theta_i = light.theta;
+        layer.phi_i = light.phi;
+        sums->write(layer);
+        return true;
     }
-
-  private:
-    using Clock = std::chrono::steady_clock;
-    static constexpr std::chrono::milliseconds kShortestPause{100};
-
-    const MeasureListener& listener_;
-    std::mutex mutex_;
-    Clock::time_point next_ = Clock::now();
 };
 
-/// Measures one layer after the other with the same tools.
+/// Measures the layers, one after the other, with the same tools.
 class Gonioreflectometer {
   public:
     Gonioreflectometer(const Heightfield& surface, const Experiment& experiment, Run& run,
@@ -104,10 +88,12 @@ class Gonioreflectometer {
           experiment_(experiment),
           run_(run),
           listener_(listener),
-          preview_(listener),
           fresnel_(experiment.optics),
           detector_(experiment.detector),
-          plan_(plan_batches(surface, experiment.run)) {}
+          plan_(plan_batches(surface, experiment.run)),
+          layers_(layers_to_fill(experiment.illumination)),
+          schedule_(layers_.size(), plan_.batches),
+          report_(listener, layers_.size()) {}
 
     Measurement measure() {
         run_.begin("preparing", surface_.cell_count());
@@ -121,31 +107,11 @@ class Gonioreflectometer {
     }
 
   private:
-    /// Looks at the surface and builds the tracer; false when it was stopped.
-    bool prepare(Measurement& m) {
-        try {
-            m.surface = statistics(surface_, run_);
-            if (listener_.begun) listener_.begun(m);
-            tracer_.emplace(surface_, run_);
-            return true;
-        } catch (const Error& error) {
-            if (error.code() != ErrorCode::Stopped) throw;
-            return false;
-        }
-    }
-
-    void fill_layers(Measurement& m) {
-        const std::vector<Incidence> light = incidences(experiment_.illumination);
-        rays_ahead_ = plan_.rays * light.size();
-        run_.begin("tracing", rays_ahead_);
-        for (std::size_t k = 0; k < light.size() && run_.keep_going(); ++k) {
-            Layer layer = named_layer(light[k]);
-            if (!fill(layer, light[k], static_cast<std::uint32_t>(k), m.notes)) continue;
-            if (listener_.layer) listener_.layer(layer, true);
-            m.layers.push_back(std::move(layer));
-        }
-        run_.end();
-        m.trace_seconds = run_.progress().seconds;
+    static std::deque<LayerInWork> layers_to_fill(const IlluminationSettings& settings) {
+        std::deque<LayerInWork> layers;
+        for (const Incidence& light : incidences(settings))
+            layers.emplace_back(light, static_cast<std::uint32_t>(layers.size()));
+        return layers;
     }
 
     Measurement describe() const {
@@ -169,76 +135,125 @@ class Gonioreflectometer {
         return m;
     }
 
-    /// Fills one layer; false when it was stopped before two batches were complete.
-    bool fill(Layer& layer, const Incidence& light, std::uint32_t stream,
-              std::vector<std::string>& notes) {
-        const KnownFacets known = known_facets(light);
-        LayerSums sums(detector_.cells(), fresnel_.channels(), orders(), experiment_.run.bounces,
-                       plan_.largest(), &known.light());
-        std::uint64_t batches = plan_.batches;
-        trace_batches(light, known, stream, 0, batches, sums);
-
-        // Refine until the errors are small enough
-        while (experiment_.run.until > 0 && run_.keep_going() && !accurate(sums)) {
-            const std::uint64_t room =
-                (plan_.limit - std::min(plan_.limit, sums.rays())) / plan_.largest();
-            const std::uint64_t more = std::min(batches, room);
-            if (more == 0) {
-                notes.push_back(fmt::format(
-                    "layer {} stopped refining at {} rays: the asked error was not reached",
-                    light.number, sums.rays()));
-                break;
-            }
-            rays_ahead_ += more * plan_.largest();
-            run_.set_total(rays_ahead_);
-            trace_batches(light, known, stream, batches, batches + more, sums);
-            batches += more;
+    /// Looks at the surface and builds the tracer; false when it was stopped.
+    bool prepare(Measurement& m) {
+        try {
+            m.surface = statistics(surface_, run_);
+            if (listener_.begun) listener_.begun(m);
+            tracer_.emplace(surface_, run_);
+            return true;
+        } catch (const Error& error) {
+            if (error.code() != ErrorCode::Stopped) throw;
+            return false;
         }
+    }
 
-        if (sums.batches() < 2) return false;
-        sums.write(layer);
+    void fill_layers(Measurement& m) {
+        rays_ahead_ = plan_.rays * layers_.size();
+        run_.begin("tracing", rays_ahead_);
+        // All threads prepare the first layer; each of the others is prepared by one of them while
+        // the one before is traced
+        if (const auto first = schedule_.next()) prepare(first->layer, run_.threads());
+        const auto workers = static_cast<std::size_t>(run_.threads());
+        parallel_for(workers, run_.threads(), [&](std::size_t) { work(); });
+        run_.end();
+        m.trace_seconds = run_.progress().seconds;
+
+        // Of a stopped run also what is there of the layers under way
+        for (std::size_t k = 0; k < layers_.size(); ++k) {
+            if (Layer layer; layers_[k].write(layer)) report_.complete(k, std::move(layer));
+            m.notes.insert(m.notes.end(), layers_[k].notes.begin(), layers_[k].notes.end());
+        }
+        m.layers = report_.finish();
+    }
+
+    /// What each thread does until all layers are complete, or the run is stopped.
+    void work() {
+        // Nobody waits for a thread that has left
+        struct Leave {
+            LayerSchedule& schedule;
+            ~Leave() { schedule.give_up(); }
+        } const leave{schedule_};
+        Follower follower;
+        BatchSums sums(detector_.cells(), fresnel_.channels(), orders(), experiment_.run.bounces);
+        while (run_.keep_going()) {
+            const auto piece = schedule_.next();
+            if (!piece) return;
+            LayerInWork& layer = layers_[piece->layer];
+            if (piece->kind == LayerSchedule::Piece::Kind::Prepare) {
+                prepare(piece->layer, 1);
+            } else if (trace(layer, piece->batch, follower, sums)) {
+                report_.grown(piece->layer, [&](Layer& grown) {
+                    const std::scoped_lock lock(layer.mutex);
+                    return layer.write(grown);
+                });
+                if (schedule_.traced(piece->layer)) extend_or_close(piece->layer);
+            }
+        }
+    }
+
+    /// Many rays meet the same facets: what becomes of them is worked out once, where it is
+    /// certain.
+    void prepare(std::size_t k, int threads) {
+        LayerInWork& layer = layers_[k];
+        const bool in_rows =
+            experiment_.run.launch == LaunchPattern::LowDiscrepancy && !layer.light.isotropic;
+        if (in_rows && KnownFacets::pay(*tracer_, plan_.rays))
+            layer.known = KnownFacets(scene_of(layer), layer.light, run_, threads);
+        schedule_.prepared(k);
+    }
+
+    /// Traces a batch and adds it to its layer; false if the run was stopped before the end.
+    bool trace(LayerInWork& layer, std::uint64_t b, Follower& follower, BatchSums& sums) {
+        const Scene scene = scene_of(layer);
+        // Choose start points
+        const LaunchBatch batch(surface_, static_cast<double>(tracer_->max_height()), layer.light,
+                                experiment_.run.launch, plan_.rays_of(b), experiment_.run.seed,
+                                layer.stream, static_cast<std::uint32_t>(b));
+        // Follow the rays until they leave, and sort them by direction
+        for (std::uint64_t part = 0; part < Follower::portions(batch); ++part) {
+            if (!run_.keep_going()) return false;
+            run_.advance(follower.follow(scene, batch, part, sums));
+        }
+        follower.finish(scene, sums);
+        // Add them to the layer; integers, so the order does not matter
+        {
+            const std::scoped_lock lock(layer.mutex);
+            if (!layer.sums)
+                layer.sums.emplace(detector_.cells(), fresnel_.channels(), orders(),
+                                   experiment_.run.bounces, plan_.largest(), &layer.known.light());
+            layer.sums->add(sums);
+        }
+        sums.clear();
         return true;
     }
 
-    /// Traces the batches [begin, end), each by one thread, and adds them to `sums`.
-    void trace_batches(const Incidence& light, const KnownFacets& known, std::uint32_t stream,
-                       std::uint64_t begin, std::uint64_t end, LayerSums& sums) {
-        std::mutex mutex;
-        const Scene scene = scene_of(light, &known);
-        parallel_for(static_cast<std::size_t>(end - begin), run_.threads(), [&](std::size_t k) {
-            const std::uint64_t b = begin + k;
-            if (!run_.keep_going()) return;
-            std::unique_ptr<Workplace> work = borrow_workplace();
-            // Choose start points
-            const LaunchBatch batch(surface_, static_cast<double>(tracer_->max_height()), light,
-                                    experiment_.run.launch, plan_.rays_of(b), experiment_.run.seed,
-                                    stream, static_cast<std::uint32_t>(b));
-            // Follow the rays until they leave, and sort them by direction
-            for (std::uint64_t part = 0; part < Follower::portions(batch); ++part) {
-                if (!run_.keep_going()) return;
-                run_.advance(work->follower.follow(scene, batch, part, work->sums));
-            }
-            work->follower.finish(scene, work->sums);
-            // Add the batch to its layer; integers, so the order does not matter
-            {
-                const std::scoped_lock lock(mutex);
-                sums.add(work->sums);
-            }
-            give_back(std::move(work));
-            preview_.show(light, sums, mutex);
-        });
+    /// All batches so far are done: refines the layer until its errors are small enough.
+    void extend_or_close(std::size_t k) {
+        LayerInWork& layer = layers_[k];
+        if (const std::uint64_t more = batches_to_add(layer)) {
+            run_.set_total(rays_ahead_ += more * plan_.largest());
+            schedule_.extend(k, more);
+            return;
+        }
+        Layer complete;
+        if (layer.write(complete)) report_.complete(k, std::move(complete));
+        layer.sums.reset();
+        layer.known = {};
+        schedule_.close();
     }
 
-    Scene scene_of(const Incidence& light, const KnownFacets* known) const {
-        return {*tracer_, fresnel_, detector_, experiment_.run.bounces, light.isotropic, known};
-    }
-    /// Many rays meet the same facets: what becomes of them is worked out once, where it is
-    /// certain.
-    KnownFacets known_facets(const Incidence& light) const {
-        const bool in_rows =
-            experiment_.run.launch == LaunchPattern::LowDiscrepancy && !light.isotropic;
-        if (!in_rows || !KnownFacets::pay(*tracer_, plan_.rays)) return {};
-        return {scene_of(light, nullptr), light, run_};
+    std::uint64_t batches_to_add(LayerInWork& layer) const {
+        if (experiment_.run.until <= 0 || accurate(*layer.sums)) return 0;
+        const std::uint64_t rays = layer.sums->rays();
+        const std::uint64_t room = (plan_.limit - std::min(plan_.limit, rays)) / plan_.largest();
+        // As many again
+        const auto so_far = static_cast<std::uint64_t>(layer.sums->batches());
+        if (room == 0)
+            layer.notes.push_back(
+                fmt::format("layer {} stopped refining at {} rays: the asked error was not reached",
+                            layer.light.number, rays));
+        return std::min(so_far, room);
     }
 
     bool accurate(const LayerSums& sums) const {
@@ -248,44 +263,24 @@ class Gonioreflectometer {
         return errors.albedo <= run.until && errors.cells <= cells;
     }
 
+    Scene scene_of(const LayerInWork& layer) const {
+        return {*tracer_,    fresnel_, detector_, experiment_.run.bounces, layer.light.isotropic,
+                &layer.known};
+    }
     int orders() const { return std::min(experiment_.detector.orders, experiment_.run.bounces); }
-
-    /// The working memory of a thread, used again by the next batch.
-    struct Workplace {
-        BatchSums sums;
-        Follower follower;
-    };
-    std::unique_ptr<Workplace> borrow_workplace() {
-        {
-            const std::scoped_lock lock(spare_mutex_);
-            if (!spare_.empty()) {
-                auto work = std::move(spare_.back());
-                spare_.pop_back();
-                return work;
-            }
-        }
-        return std::make_unique<Workplace>(Workplace{
-            BatchSums(detector_.cells(), fresnel_.channels(), orders(), experiment_.run.bounces),
-            Follower()});
-    }
-    void give_back(std::unique_ptr<Workplace> work) {
-        work->sums.clear();
-        const std::scoped_lock lock(spare_mutex_);
-        spare_.push_back(std::move(work));
-    }
 
     const Heightfield& surface_;
     const Experiment& experiment_;
     Run& run_;
     const MeasureListener& listener_;
-    LayerPreview preview_;
     const Fresnel fresnel_;
     std::optional<WideTracer> tracer_;
     const Detector detector_;
     const BatchPlan plan_;
-    std::uint64_t rays_ahead_ = 0;
-    std::mutex spare_mutex_;
-    std::vector<std::unique_ptr<Workplace>> spare_;
+    std::deque<LayerInWork> layers_;
+    LayerSchedule schedule_;
+    LayerReport report_;
+    std::atomic<std::uint64_t> rays_ahead_ = 0;
 };
 
 }  // namespace

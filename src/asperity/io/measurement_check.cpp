@@ -16,12 +16,17 @@ std::size_t size(int count) {
     return static_cast<std::size_t>(count);
 }
 
-// Nothing when the sum does not fit 64 bits.
+// Nothing when the sum does not fit 64 bits. Both halves of the numbers are summed by themselves,
+// so that no addition has to be looked at.
 std::optional<std::uint64_t> sum(std::span<const std::uint64_t> terms) {
-    std::uint64_t total = 0;
-    for (const std::uint64_t term : terms)
-        if (__builtin_add_overflow(total, term, &total)) return std::nullopt;
-    return total;
+    std::uint64_t low = 0, high = 0;
+    for (const std::uint64_t term : terms) {
+        low += term & 0xffffffff;
+        high += term >> 32;
+    }
+    high += low >> 32;
+    if (high >> 32 != 0) return std::nullopt;
+    return (high << 32) | (low & 0xffffffff);
 }
 
 bool detector_fits(const Measurement& m) {

@@ -185,10 +185,12 @@ class ResultReader {
 
 }  // namespace
 
-void save_measurement(const Measurement& measurement, const std::string& path) {
+std::string save_measurement(const Measurement& measurement, const std::string& path) {
     if (const std::string why = contradiction(measurement); !why.empty())
         throw Error(ErrorCode::InvalidInput, "the measurement contradicts itself: " + why, path);
-    write_tensor_file(path, ResultFields(measurement).blocks());
+    const ResultFields fields(measurement);
+    write_tensor_file(path, fields.blocks());
+    return fields.checksum();
 }
 
 Measurement load_measurement(const std::string& path) {

@@ -12,8 +12,8 @@ inline constexpr int kResultFormat = 1;
 
 /// Writes a result file (tensor container, docs/formats.md): to a temporary name beside `path`,
 /// synced, renamed over it; on any failure `path` is as it was and no temporary file is left.
-/// Throws Error(InputOutput).
-void save_measurement(const Measurement& measurement, const std::string& path);
+/// Returns checksum(measurement). Throws Error(InputOutput).
+std::string save_measurement(const Measurement& measurement, const std::string& path);
 
 /// Reads a result file whole. A damaged, cut or foreign file is refused with file, offset and
 /// reason: Error(InvalidInput), Error(InputOutput).
