@@ -46,12 +46,16 @@ class PatchIntegrator {
         // Where the mirror direction is near, a lobe may hide between the points: look closer.
         const bool look_closer = depth < kMinDepthAtMirror && near_mirror(p);
         if (!look_closer) {
-            const Channels coarse = gauss<2>(p, kNodes2, kWeights2);
-            const Channels fine = gauss<3>(p, kNodes3, kWeights3);
-            double error = 0;
-            for (std::size_t c = 0; c < channels_; ++c)
-                error = std::max(error, std::abs(fine[c] - coarse[c]));
-            if (error <= tolerance_ || depth >= kMaxDepth) {
+            // Where f is small or smooth the first two rules are enough
+            const Channels one = gauss<1>(p, kNodes1, kWeights1);
+            Channels fine = gauss<2>(p, kNodes2, kWeights2);
+            bool close = differ_little(one, fine);
+            if (!close) {
+                const Channels coarse = fine;
+                fine = gauss<3>(p, kNodes3, kWeights3);
+                close = differ_little(coarse, fine) || depth >= kMaxDepth;
+            }
+            if (close) {
                 for (std::size_t c = 0; c < channels_; ++c) sum[c] += fine[c];
                 return;
             }
@@ -65,23 +69,38 @@ class PatchIntegrator {
 
   private:
     static constexpr int kMinDepthAtMirror = 3, kMaxDepth = 9;
-    // Nodes on [0, 1] and weights of the Gauss-Legendre rules of 2 and 3 points.
+    // Nodes on [0, 1] and weights of the Gauss-Legendre rules of 1, 2 and 3 points.
+    static constexpr std::array kNodes1 = {0.5};
+    static constexpr std::array kWeights1 = {1.0};
     static constexpr std::array kNodes2 = {0.21132486540518712, 0.78867513459481288};
     static constexpr std::array kWeights2 = {0.5, 0.5};
     static constexpr std::array kNodes3 = {0.11270166537925831, 0.5, 0.88729833462074169};
     static constexpr std::array kWeights3 = {5.0 / 18, 8.0 / 18, 5.0 / 18};
 
+    bool differ_little(const Channels& a, const Channels& b) const {
+        double error = 0;
+        for (std::size_t c = 0; c < channels_; ++c)
+            error = std::max(error, std::abs(a[c] - b[c]));
+        return error <= tolerance_;
+    }
+
     template <std::size_t N>
     Channels gauss(const Patch& p, const std::array<double, N>& nodes,
                    const std::array<double, N>& weights) const {
-        Channels sum{}, values{};
+        Channels sum, values;
+        std::fill_n(sum.begin(), channels_, 0.0);
         const std::span<double> f = std::span(values).first(channels_);
+        std::array<double, N> cos_phi, sin_phi;
+        for (std::size_t b = 0; b < N; ++b) {
+            const double phi = p.phi0 + nodes[b] * (p.phi1 - p.phi0);
+            cos_phi[b] = std::cos(phi);
+            sin_phi[b] = std::sin(phi);
+        }
         for (std::size_t a = 0; a < N; ++a) {
             const double s = p.s0 + nodes[a] * (p.s1 - p.s0);
             const double sin_theta = std::sqrt(s), cos_theta = std::sqrt(1 - s);
             for (std::size_t b = 0; b < N; ++b) {
-                const double phi = p.phi0 + nodes[b] * (p.phi1 - p.phi0);
-                const Vec3 wo = {sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta};
+                const Vec3 wo = {sin_theta * cos_phi[b], sin_theta * sin_phi[b], cos_theta};
                 brdf_.eval(wi_, wo, f);
                 const double weight = weights[a] * weights[b];
                 for (std::size_t c = 0; c < channels_; ++c) sum[c] += weight * f[c];

@@ -234,38 +234,35 @@ struct alignas(64) LaneTable {
 };
 inline constexpr LaneTable<(kLanes <= 8 ? kLanes : 1)> kLaneTable;
 
-/// Writes the chosen lanes of vectors side by side. The choice is made ready once, for all the
-/// vectors of a path. Lanes behind the chosen ones are overwritten too.
+/// Writes the chosen lanes of vectors side by side. Their order is made ready once, for all the
+/// vectors of a path: to exchange lanes is faster than to compress each vector. Lanes behind the
+/// chosen ones are overwritten too.
 class Packer {
   public:
     HWY_INLINE explicit Packer(Mask chosen)
-        : count(hn::CountTrue(kFloat, chosen)), chosen_(chosen) {
-        if constexpr (kLanes <= 8) {
-            std::uint8_t bits[8] = {};
-            hn::StoreMaskBits(kFloat, chosen, bits);
-            const hn::Rebind<std::uint8_t, IntTag> bytes;
-            order_ = hn::PromoteTo(kInt, hn::LoadU(bytes, kLaneTable.rows[bits[0]]));
-        }
-    }
+        : count(hn::CountTrue(kFloat, chosen)), order_(order_of(chosen)) {}
+
     HWY_INLINE void operator()(Floats x, PerPath<float>& to, std::size_t at) const {
-        if constexpr (kLanes <= 8)
-            hn::StoreU(hn::TableLookupLanes(x, hn::IndicesFromVec(kFloat, order_)), kFloat,
-                       to.values + at);
-        else
-            hn::StoreU(hn::Compress(x, chosen_), kFloat, to.values + at);
+        hn::StoreU(hn::TableLookupLanes(x, hn::IndicesFromVec(kFloat, order_)), kFloat,
+                   to.values + at);
     }
     HWY_INLINE void operator()(Ints x, PerPath<std::int32_t>& to, std::size_t at) const {
-        if constexpr (kLanes <= 8)
-            hn::StoreU(hn::TableLookupLanes(x, hn::IndicesFromVec(kInt, order_)), kInt,
-                       to.values + at);
-        else
-            hn::StoreU(hn::Compress(x, hn::RebindMask(kInt, chosen_)), kInt, to.values + at);
+        hn::StoreU(hn::TableLookupLanes(x, hn::IndicesFromVec(kInt, order_)), kInt, to.values + at);
     }
     const std::size_t count;
 
   private:
-    Mask chosen_;
-    Ints order_ = hn::Zero(kInt);
+    HWY_INLINE static Ints order_of(Mask chosen) {
+        if constexpr (kLanes <= 8) {
+            std::uint8_t bits[8] = {};
+            hn::StoreMaskBits(kFloat, chosen, bits);
+            const hn::Rebind<std::uint8_t, IntTag> bytes;
+            return hn::PromoteTo(kInt, hn::LoadU(bytes, kLaneTable.rows[bits[0]]));
+        } else {
+            return hn::Compress(hn::Iota(kInt, 0), hn::RebindMask(kInt, chosen));
+        }
+    }
+    const Ints order_;
 };
 
 }  // namespace asperity::HWY_NAMESPACE
