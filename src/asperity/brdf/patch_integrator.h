@@ -79,8 +79,7 @@ class PatchIntegrator {
 
     bool differ_little(const Channels& a, const Channels& b) const {
         double error = 0;
-        for (std::size_t c = 0; c < channels_; ++c)
-            error = std::max(error, std::abs(a[c] - b[c]));
+        for (std::size_t c = 0; c < channels_; ++c) error = std::max(error, std::abs(a[c] - b[c]));
         return error <= tolerance_;
     }
 

@@ -188,7 +188,7 @@ void LookAtFacets(const WideGrid& grid, bool equal_area, int rows, int columns, 
             const Floats h00 = hn::LoadU(kFloat, below + k), h10 = hn::LoadU(kFloat, below + k + 1),
                          h01 = hn::LoadU(kFloat, above + k), h11 = hn::LoadU(kFloat, above + k + 1);
             const Ints i =
-                hn::Add(hn::Iota(kInt, static_cast<std::int32_t>(k)), all(-grid.middle_x));
+                hn::Add(counting_from(static_cast<std::int32_t>(k)), all(-grid.middle_x));
             const Ints cell =
                 only(first_lanes(k, count),
                      hn::Or(hn::And(i, all(0xffff)), all(pack_vertex(0, j - grid.middle_y))));

@@ -70,9 +70,14 @@ HWY_INLINE Floats select_by_sign(Floats sign, Floats if_set, Floats if_clear) {
     return select(negative(sign), if_set, if_clear);
 #endif
 }
+/// k, k + 1, ... Highway's Iota of a variable writes lane by lane and reads the whole at once,
+/// which takes longer than a whole kernel may.
+HWY_INLINE Ints counting_from(std::int32_t k) {
+    return hn::Add(hn::Iota(kInt, 0), all(k));
+}
 /// The lanes k, k + 1, ... below count.
 HWY_INLINE Mask first_lanes(std::size_t k, std::size_t count) {
-    return hn::RebindMask(kFloat, hn::Lt(hn::Iota(kInt, static_cast<std::int32_t>(k)),
+    return hn::RebindMask(kFloat, hn::Lt(counting_from(static_cast<std::int32_t>(k)),
                                          all(static_cast<std::int32_t>(count))));
 }
 

@@ -155,7 +155,7 @@ void LaunchStraightDown(const WideGrid& grid, float u, float v, const LaunchedRo
             open = hn::AndNot(sure, open);
             if (hn::AllFalse(kFloat, open)) continue;
         }
-        const Ints lane = hn::Iota(kInt, k);
+        const Ints lane = counting_from(k);
         const Ints x = hn::Add(lane, all(row.i + corner - grid.middle_x));
         const Ints vertex = ground.wrap(
             hn::Or(hn::And(x, all(0xffff)), all(pack_vertex(0, row.j + corner - grid.middle_y))));

@@ -312,7 +312,7 @@ class Descent {
                     low, hn::RebindMask(kFloat, hn::TestBit(hn::Shr(known.bits[k], edge), all(1))));
                 counted += hn::CountTrue(kFloat, sure);
                 const Packer pack(hn::AndNot(sure, low));
-                const Ints lane = hn::Iota(kInt, static_cast<std::int32_t>(k * kLanes));
+                const Ints lane = counting_from(static_cast<std::int32_t>(k * kLanes));
                 pack(hn::Add(first_triangle, edge), hits.triangle, hits.count);
                 pack(
                     swapped ? hn::Add(first_cell, hn::ShiftLeft<16>(lane)) : plus(first_cell, lane),

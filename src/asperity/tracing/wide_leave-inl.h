@@ -21,8 +21,49 @@ HWY_INLINE Ints cell_of(Ints corner, Floats side) {
     return minus(corner, hn::And(all(pack_vertex(1, 1)), upper));
 }
 
-HWY_INLINE Floats height_at(Floats height, Floats rise_u, Floats rise_v, Floats u, Floats v) {
-    return hn::Add(height, hn::Add(hn::Mul(rise_u, u), hn::Mul(rise_v, v)));
+HWY_INLINE Floats height_of(const FacetPoints& points, std::size_t k) {
+    return hn::Add(load(points.height, k),
+                   hn::Add(hn::Mul(load(points.rise_u, k), load(points.u, k)),
+                           hn::Mul(load(points.rise_v, k), load(points.v, k))));
+}
+
+/// Which paths of a vector are free for certain: above everything, or beyond the horizon.
+template <class GroundT>
+HWY_INLINE Mask free_ones(const GroundT& ground, const FacetPoints& points,
+                          const Directions& directions, Mask valid, std::size_t k) {
+    const Floats z = load(directions.z, k);
+    Floats slope = ground.steepest;
+    if (ground.horizon_pays) {
+        const Ints cell = cell_of(load(points.corner, k), load(points.side, k));
+        const Ints sector = sector_of(load(directions.x, k), load(directions.y, k));
+        slope = hn::Min(ground.horizon(only(valid, ground.wrap(cell)), sector), slope);
+    }
+    const Mask on_top =
+        hn::And(hn::Ge(z, hn::Zero(kFloat)), hn::Ge(height_of(points, k), ground.max_height));
+    return hn::And(valid, hn::Or(on_top, hn::Gt(z, hn::Mul(slope, load(directions.level, k)))));
+}
+
+/// Appends the paths of a vector that are free, and over finite patches where they are.
+template <class GroundT>
+HWY_INLINE void pack_free(const GroundT& ground, const FacetPoints& points,
+                          const Directions& directions, Mask free, std::size_t k,
+                          Escapes& escapes) {
+    const Packer pack(free);
+    pack(load(directions.x, k), escapes.x, escapes.count);
+    pack(load(directions.y, k), escapes.y, escapes.count);
+    pack(load(directions.z, k), escapes.z, escapes.count);
+    pack(load(directions.path, k), escapes.path, escapes.count);
+    if (!ground.periodic) {
+        const Ints corner = load(points.corner, k);
+        const auto place = [&](Ints of_corner, const PerPath<float>& along) HWY_ATTR {
+            return hn::Add(hn::ConvertTo(kFloat, of_corner),
+                           hn::Mul(load(points.side, k), load(along, k)));
+        };
+        pack(place(x_of(corner), points.u), escapes.at_x, escapes.count);
+        pack(place(y_of(corner), points.v), escapes.at_y, escapes.count);
+        pack(height_of(points, k), escapes.at_z, escapes.count);
+    }
+    escapes.count += pack.count;
 }
 
 /// Parts the paths that are free for certain from those that have to be followed: `points` and
@@ -30,52 +71,32 @@ HWY_INLINE Floats height_at(Floats height, Floats rise_u, Floats rise_v, Floats 
 template <class GroundT>
 void part_free_on(const GroundT& ground, FacetPoints& points, Directions& directions,
                   Escapes& escapes) {
-    std::size_t kept = 0;
+    // First all looks: with the packing in between each would wait for the one before
+    constexpr std::size_t kBytes = (kLanes + 7) / 8;
+    std::uint8_t free_bits[kWave / kLanes * kBytes + 8] = {};
     for (std::size_t k = 0; k < points.count; k += kLanes) {
         const Mask valid = first_lanes(k, points.count);
-        const Ints corner = load(points.corner, k);
-        const Floats side = load(points.side, k), u = load(points.u, k), v = load(points.v, k);
-        const Floats height = load(points.height, k), rise_u = load(points.rise_u, k),
-                     rise_v = load(points.rise_v, k);
-        const Floats x = load(directions.x, k), y = load(directions.y, k),
-                     z = load(directions.z, k), level = load(directions.level, k);
-        const Ints path = load(directions.path, k);
-
-        const Ints sector = sector_of(x, y);
-        const Ints cell = only(valid, ground.wrap(cell_of(corner, side)));
-        Floats slope = ground.steepest;
-        if (ground.horizon_pays) slope = hn::Min(ground.horizon(cell, sector), slope);
-        const Floats here = height_at(height, rise_u, rise_v, u, v);
-        const Mask on_top = hn::And(hn::Ge(z, hn::Zero(kFloat)), hn::Ge(here, ground.max_height));
-        const Mask free = hn::And(valid, hn::Or(on_top, hn::Gt(z, hn::Mul(slope, level))));
-
-        const Packer pack_free(free);
-        pack_free(x, escapes.x, escapes.count);
-        pack_free(y, escapes.y, escapes.count);
-        pack_free(z, escapes.z, escapes.count);
-        pack_free(path, escapes.path, escapes.count);
-        if (!ground.periodic) {
-            const Floats at_x = hn::Add(hn::ConvertTo(kFloat, x_of(corner)), hn::Mul(side, u));
-            const Floats at_y = hn::Add(hn::ConvertTo(kFloat, y_of(corner)), hn::Mul(side, v));
-            pack_free(at_x, escapes.at_x, escapes.count);
-            pack_free(at_y, escapes.at_y, escapes.count);
-            pack_free(here, escapes.at_z, escapes.count);
-        }
-        escapes.count += pack_free.count;
-
-        const Packer pack(hn::AndNot(free, valid));
-        pack(corner, points.corner, kept);
-        pack(side, points.side, kept);
-        pack(u, points.u, kept);
-        pack(v, points.v, kept);
-        pack(height, points.height, kept);
-        pack(rise_u, points.rise_u, kept);
-        pack(rise_v, points.rise_v, kept);
-        pack(x, directions.x, kept);
-        pack(y, directions.y, kept);
-        pack(z, directions.z, kept);
-        pack(level, directions.level, kept);
-        pack(path, directions.path, kept);
+        hn::StoreMaskBits(kFloat, free_ones(ground, points, directions, valid, k),
+                          free_bits + k / kLanes * kBytes);
+    }
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < points.count; k += kLanes) {
+        const Mask free = hn::LoadMaskBits(kFloat, free_bits + k / kLanes * kBytes);
+        pack_free(ground, points, directions, free, k, escapes);
+        const Packer pack(hn::AndNot(free, first_lanes(k, points.count)));
+        const auto keep = [&](auto& values) HWY_ATTR { pack(load(values, k), values, kept); };
+        keep(points.corner);
+        keep(points.side);
+        keep(points.u);
+        keep(points.v);
+        keep(points.height);
+        keep(points.rise_u);
+        keep(points.rise_v);
+        keep(directions.x);
+        keep(directions.y);
+        keep(directions.z);
+        keep(directions.level);
+        keep(directions.path);
         kept += pack.count;
     }
     points.count = kept;
@@ -137,9 +158,7 @@ HWY_INLINE Setting set_out(const GroundT& ground, const FacetPoints& points, Dir
     const Floats x = load(directions.x, k), y = load(directions.y, k), z = load(directions.z, k);
     hn::StoreInterleaved4(x, y, z, hn::BitCast(kFloat, load(directions.path, k)), kFloat,
                           &directions.headings.values[k].x);
-    const Floats here = start_height ? load(*start_height, k)
-                                     : height_at(load(points.height, k), load(points.rise_u, k),
-                                                 load(points.rise_v, k), u, v);
+    const Floats here = start_height ? load(*start_height, k) : height_of(points, k);
 
     // Cells and height per length of path, and how far from the near corner it starts; straight up
     // is taken for a hair off
@@ -174,7 +193,7 @@ HWY_INLINE Setting set_out(const GroundT& ground, const FacetPoints& points, Dir
             level,
             hn::IfThenElseZero(second, all(-0.0f)),
             sector_of(x, y),
-            hn::Iota(kInt, static_cast<std::int32_t>(k))};
+            counting_from(static_cast<std::int32_t>(k))};
 }
 
 }  // namespace asperity::HWY_NAMESPACE
