@@ -4,6 +4,7 @@
 #include <asperity/core/energy.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -64,14 +65,24 @@ void BatchSums::escape(const PerPath<std::int32_t>& cells, const PerPath<std::in
                        std::size_t count, int order, const Weights& weights) {
     const std::size_t bounce = index(order - 1), kept = std::min(bounce, orders_ - 1);
     if (kept > 0) {
-        const std::size_t first = later_.size();
-        later_.resize(first + count);
+        std::uint32_t* later = later_.append(count);
+        const auto first = static_cast<std::uint32_t>(kept * cells_ * channels_),
+                   channels = static_cast<std::uint32_t>(channels_);
         for (std::size_t k = 0; k < count; ++k)
-            later_[first + k] =
-                static_cast<std::uint32_t>((kept * cells_ + index(cells[k])) * channels_);
+            later[k] = first + static_cast<std::uint32_t>(cells[k]) * channels;
     }
     if (!weights.empty()) {
-        escape_weighted(cells, paths, count, order, weights);
+        float* later = kept > 0 ? later_weights_.append(count * channels_) : nullptr;
+        for (std::size_t c = 0; c < channels_;) {
+            // Colours at once, as this takes a good part of the time of a metal
+            if (c + 3 <= channels_) {
+                escape_weighted<3>(cells, paths, count, bounce, weights, c, later);
+                c += 3;
+            } else {
+                escape_weighted<1>(cells, paths, count, bounce, weights, c, later);
+                c += 1;
+            }
+        }
         return;
     }
     // Plain pointers and no branch: this is the innermost loop that is not done in lanes
@@ -86,34 +97,33 @@ void BatchSums::escape(const PerPath<std::int32_t>& cells, const PerPath<std::in
     escaped_by_bounce_[bounce] += count * kRayEnergy;
 }
 
+template <std::size_t kCount>
 void BatchSums::escape_weighted(const PerPath<std::int32_t>& cells,
-                                const PerPath<std::int32_t>& paths, std::size_t count, int order,
-                                const Weights& weights) {
-    const std::size_t bounce = index(order - 1);
-    // What each path carries, channel by channel; kept if it is to be told apart later
-    const bool later = std::min(bounce, orders_ - 1) > 0;
-    std::vector<std::uint64_t>& kept = later ? later_energy_ : carried_;
-    const std::size_t first = later ? later_energy_.size() : 0;
-    kept.resize(first + count * channels_);
-    std::uint64_t* carried = kept.data() + first;
-    for (std::size_t c = 0; c < channels_; ++c) {
-        const float* weight = weights[c];
-        std::uint64_t sum = 0;
-        for (std::size_t k = 0; k < count; ++k) {
-            const std::uint64_t energy = to_energy(double{weight[paths[k]]});
-            carried[k * channels_ + c] = energy;
-            sum += energy;
-        }
-        escaped_by_bounce_[c * bounces_ + bounce] += sum;
-        absorbed_[c] += count * kRayEnergy - sum;
-    }
-    std::uint64_t* energy = energy_.data();
+                                const PerPath<std::int32_t>& paths, std::size_t count,
+                                std::size_t bounce, const Weights& weights, std::size_t first,
+                                float* later) {
+    // Plain pointers, and copies of what does not change, for the innermost loop
+    std::array<const float*, kCount> weight;
+    for (std::size_t c = 0; c < kCount; ++c) weight[c] = weights[first + c].values;
+    const std::size_t channels = channels_;
+    std::uint64_t* energy = energy_.data() + first;
     std::uint8_t* touched = touched_.data();
-    for (std::size_t k = 0; k < count; ++k, carried += channels_) {
-        __builtin_prefetch(energy + index(cells[std::min(k + kAhead, count - 1)]) * channels_, 1);
-        const std::size_t cell = index(cells[k]);
-        for (std::size_t c = 0; c < channels_; ++c) energy[cell * channels_ + c] += carried[c];
+    std::array<std::uint64_t, kCount> sum{};
+    for (std::size_t k = 0; k < count; ++k) {
+        __builtin_prefetch(energy + index(cells[std::min(k + kAhead, count - 1)]) * channels, 1);
+        const std::size_t cell = index(cells[k]), path = index(paths[k]);
+        for (std::size_t c = 0; c < kCount; ++c) {
+            const float w = weight[c][path];
+            const std::uint64_t carried = to_energy(double{w});
+            energy[cell * channels + c] += carried;
+            sum[c] += carried;
+            if (later) later[k * channels + first + c] = w;
+        }
         touched[cell / kBlock] = 1;
+    }
+    for (std::size_t c = 0; c < kCount; ++c) {
+        escaped_by_bounce_[(first + c) * bounces_ + bounce] += sum[c];
+        absorbed_[first + c] += count * kRayEnergy - sum[c];
     }
 }
 
@@ -153,7 +163,7 @@ void BatchSums::clear() {
     });
     std::fill(touched_.begin(), touched_.end(), std::uint8_t{0});
     later_.clear();
-    later_energy_.clear();
+    later_weights_.clear();
     for (auto* account : {&escaped_by_bounce_, &absorbed_, &truncated_, &edge_})
         std::fill(account->begin(), account->end(), std::uint64_t{0});
     rays = segments = reflections = stuck = counted_ = 0;
@@ -232,15 +242,17 @@ void LayerSums::add_cells(const BatchSums& b, std::uint64_t counted) {
 }
 
 void LayerSums::add_later_orders(const BatchSums& b) {
-    const bool mirrors = b.later_energy_.empty();
-    const std::uint64_t* carried = b.later_energy_.data();
-    for (std::size_t k = 0; k < b.later_.size(); ++k) {
-        __builtin_prefetch(&energy_[b.later_[std::min(k + kAhead, b.later_.size() - 1)]], 1);
-        std::uint64_t* sums = &energy_[b.later_[k]];
-        if (mirrors)
+    const std::size_t count = b.later_.size(), channels = channels_;
+    const std::uint32_t* places = b.later_.data();
+    const float* weight = b.later_weights_.size() > 0 ? b.later_weights_.data() : nullptr;
+    std::uint64_t* energy = energy_.data();
+    for (std::size_t k = 0; k < count; ++k) {
+        __builtin_prefetch(energy + places[std::min(k + kAhead, count - 1)], 1);
+        std::uint64_t* sums = energy + places[k];
+        if (!weight)
             *sums += kRayEnergy;
         else
-            for (std::size_t c = 0; c < channels_; ++c) sums[c] += *carried++;
+            for (std::size_t c = 0; c < channels; ++c) sums[c] += to_energy(double{*weight++});
     }
 }
 

@@ -4,6 +4,7 @@
 #include <asperity/gonio/measurement.h>
 #include <asperity/tracing/wide.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -65,20 +66,42 @@ class BatchSums {
     /// Books the paths' energy under `account` and the rest of it as absorbed.
     void settle(std::vector<std::uint64_t>& account, const PerPath<std::int32_t>& paths,
                 std::size_t count, const Weights& weights);
+    /// The same for `kCount` channels from `first` on; what each path carries is also written to
+    /// `later`, [k * channels + channel], if that is not null.
+    template <std::size_t kCount>
     void escape_weighted(const PerPath<std::int32_t>& cells, const PerPath<std::int32_t>& paths,
-                         std::size_t count, int order, const Weights& weights);
+                         std::size_t count, std::size_t bounce, const Weights& weights,
+                         std::size_t first, float* later);
+    /// A list that forgets its values, but keeps their room.
+    template <class T>
+    class List {
+      public:
+        /// Room for so many more values.
+        T* append(std::size_t count) {
+            if (count_ + count > values_.size())
+                values_.resize(std::max(2 * values_.size(), count_ + count));
+            count_ += count;
+            return values_.data() + (count_ - count);
+        }
+        void clear() { count_ = 0; }
+        std::size_t size() const { return count_; }
+        const T* data() const { return values_.data(); }
+
+      private:
+        std::vector<T> values_;
+        std::size_t count_ = 0;
+    };
 
     static constexpr std::size_t kBlock = 16;  ///< cells
 
     std::size_t cells_, channels_, orders_, bounces_;
     // All orders of a cell together, so that few bytes are touched at random; what is of a later
     // order is noted once more, one by one
-    std::vector<std::uint64_t> energy_;        ///< [cell * channels + channel]
-    std::vector<std::uint32_t> later_;         ///< places in LayerSums::energy_, first channel
-    std::vector<std::uint64_t> later_energy_;  ///< [k * channels + channel]; none: kRayEnergy each
-    std::vector<std::uint64_t> carried_;       ///< working memory of escape_weighted
-    std::uint64_t counted_ = 0;                ///< rays of escape_counted: not in energy_
-    std::vector<std::uint8_t> touched_;        ///< by block of cells: whether it holds energy
+    std::vector<std::uint64_t> energy_;  ///< [cell * channels + channel]
+    List<std::uint32_t> later_;          ///< places in LayerSums::energy_, first channel
+    List<float> later_weights_;          ///< [k * channels + channel]; none of perfect mirrors
+    std::uint64_t counted_ = 0;          ///< rays of escape_counted: not in energy_
+    std::vector<std::uint8_t> touched_;  ///< by block of cells: whether it holds energy
     std::vector<std::uint64_t> escaped_by_bounce_;  ///< [channel * bounces + order]
     std::vector<std::uint64_t> absorbed_, truncated_, edge_;
 };

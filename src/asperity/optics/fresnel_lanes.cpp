@@ -72,12 +72,12 @@ void Conductor(const float* cos_theta, std::size_t count, float n, float k, floa
         const auto a_is_large = hn::Ge(re, zero);
         const V a = hn::IfThenElse(a_is_large, large, small);
         const V b2 = squared(hn::IfThenElse(a_is_large, small, large));
-        const V rs =
-            hn::Div(hn::Add(squared(hn::Sub(a, c)), b2), hn::Add(squared(hn::Add(a, c)), b2));
+        // Rs = m / p and Rp = Rs q / r; their mean with one division
+        const V m = hn::Add(squared(hn::Sub(a, c)), b2), p = hn::Add(squared(hn::Add(a, c)), b2);
         const V ac = hn::Mul(a, c), b2c2 = hn::Mul(b2, squared(c));
-        const V rp = hn::Mul(rs, hn::Div(hn::Add(squared(hn::Sub(ac, s2)), b2c2),
-                                         hn::Add(squared(hn::Add(ac, s2)), b2c2)));
-        return hn::Mul(half, hn::Add(rs, rp));
+        const V q = hn::Add(squared(hn::Sub(ac, s2)), b2c2),
+                r = hn::Add(squared(hn::Add(ac, s2)), b2c2);
+        return hn::Mul(half, hn::Div(hn::Mul(m, hn::Add(q, r)), hn::Mul(p, r)));
     });
 }
 
