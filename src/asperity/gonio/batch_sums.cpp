@@ -2,6 +2,7 @@
 #include <asperity/gonio/batch_sums.h>
 
 #include <asperity/core/energy.h>
+#include <asperity/optics/fresnel.h>
 
 #include <algorithm>
 #include <array>
@@ -54,7 +55,7 @@ BatchSums::BatchSums(int cells, int channels, int orders, int bounces)
       channels_(index(channels)),
       orders_(index(orders)),
       bounces_(index(bounces)),
-      energy_(cells_ * channels_),
+      energy_(orders_ * cells_ * channels_),
       touched_((cells_ + kBlock - 1) / kBlock),
       escaped_by_bounce_(channels_ * bounces_),
       absorbed_(channels_),
@@ -64,35 +65,22 @@ BatchSums::BatchSums(int cells, int channels, int orders, int bounces)
 void BatchSums::escape(const PerPath<std::int32_t>& cells, const PerPath<std::int32_t>& paths,
                        std::size_t count, int order, const Weights& weights) {
     const std::size_t bounce = index(order - 1), kept = std::min(bounce, orders_ - 1);
-    if (kept > 0) {
-        std::uint32_t* later = later_.append(count);
-        const auto first = static_cast<std::uint32_t>(kept * cells_ * channels_),
-                   channels = static_cast<std::uint32_t>(channels_);
-        for (std::size_t k = 0; k < count; ++k)
-            later[k] = first + static_cast<std::uint32_t>(cells[k]) * channels;
-    }
+    const std::uint8_t bit = bit_of(kept);
+    std::uint8_t* touched = touched_.data();
+    for (std::size_t k = 0; k < count; ++k) touched[index(cells[k]) / kBlock] |= bit;
+    std::uint64_t* sums = energy_.data() + kept * cells_ * channels_;
     if (!weights.empty()) {
-        float* later = kept > 0 ? later_weights_.append(count * channels_) : nullptr;
-        for (std::size_t c = 0; c < channels_;) {
-            // Colours at once, as this takes a good part of the time of a metal
-            if (c + 3 <= channels_) {
-                escape_weighted<3>(cells, paths, count, bounce, weights, c, later);
-                c += 3;
-            } else {
-                escape_weighted<1>(cells, paths, count, bounce, weights, c, later);
-                c += 1;
-            }
-        }
+        // Colours at once, as this takes a good part of the time of a metal
+        std::size_t c = 0;
+        for (; c + 3 <= channels_; c += 3)
+            escape_weighted<3>(cells, paths, count, bounce, weights, c, sums + c);
+        for (; c < channels_; ++c)
+            escape_weighted<1>(cells, paths, count, bounce, weights, c, sums + c);
         return;
     }
-    // Plain pointers and no branch: this is the innermost loop that is not done in lanes
-    std::uint64_t* sums = energy_.data();
-    std::uint8_t* touched = touched_.data();
     for (std::size_t k = 0; k < count; ++k) {
         __builtin_prefetch(sums + cells[std::min(k + kAhead, count - 1)], 1);
-        const std::size_t cell = index(cells[k]);
-        sums[cell] += kRayEnergy;
-        touched[cell / kBlock] = 1;
+        sums[cells[k]] += kRayEnergy;
     }
     escaped_by_bounce_[bounce] += count * kRayEnergy;
 }
@@ -101,29 +89,24 @@ template <std::size_t kCount>
 void BatchSums::escape_weighted(const PerPath<std::int32_t>& cells,
                                 const PerPath<std::int32_t>& paths, std::size_t count,
                                 std::size_t bounce, const Weights& weights, std::size_t first,
-                                float* later) {
+                                std::uint64_t* sums) {
     // Plain pointers, and copies of what does not change, for the innermost loop
     std::array<const float*, kCount> weight;
     for (std::size_t c = 0; c < kCount; ++c) weight[c] = weights[first + c].values;
     const std::size_t channels = channels_;
-    std::uint64_t* energy = energy_.data() + first;
-    std::uint8_t* touched = touched_.data();
-    std::array<std::uint64_t, kCount> sum{};
+    std::array<std::uint64_t, kCount> total{};
     for (std::size_t k = 0; k < count; ++k) {
-        __builtin_prefetch(energy + index(cells[std::min(k + kAhead, count - 1)]) * channels, 1);
-        const std::size_t cell = index(cells[k]), path = index(paths[k]);
+        __builtin_prefetch(sums + index(cells[std::min(k + kAhead, count - 1)]) * channels, 1);
+        std::uint64_t* sum = sums + index(cells[k]) * channels;
         for (std::size_t c = 0; c < kCount; ++c) {
-            const float w = weight[c][path];
-            const std::uint64_t carried = to_energy(double{w});
-            energy[cell * channels + c] += carried;
-            sum[c] += carried;
-            if (later) later[k * channels + first + c] = w;
+            const std::uint64_t energy = to_energy(double{weight[c][paths[k]]});
+            sum[c] += energy;
+            total[c] += energy;
         }
-        touched[cell / kBlock] = 1;
     }
     for (std::size_t c = 0; c < kCount; ++c) {
-        escaped_by_bounce_[(first + c) * bounces_ + bounce] += sum[c];
-        absorbed_[first + c] += count * kRayEnergy - sum[c];
+        escaped_by_bounce_[(first + c) * bounces_ + bounce] += total[c];
+        absorbed_[first + c] += count * kRayEnergy - total[c];
     }
 }
 
@@ -140,7 +123,8 @@ template <class Work>
 void BatchSums::for_touched(Work work) const {
     for (std::size_t block = 0; block < touched_.size(); ++block)
         if (touched_[block])
-            work(block * kBlock * channels_, std::min((block + 1) * kBlock, cells_) * channels_);
+            work(block * kBlock * channels_, std::min((block + 1) * kBlock, cells_) * channels_,
+                 touched_[block]);
 }
 
 void BatchSums::settle(std::vector<std::uint64_t>& account, const PerPath<std::int32_t>& paths,
@@ -158,12 +142,13 @@ void BatchSums::settle(std::vector<std::uint64_t>& account, const PerPath<std::i
 }
 
 void BatchSums::clear() {
-    for_touched([&](std::size_t begin, std::size_t end) {
-        std::fill(energy_.data() + begin, energy_.data() + end, std::uint64_t{0});
+    for_touched([&](std::size_t begin, std::size_t end, std::uint8_t bits) {
+        for (std::size_t o = 0; o < orders_; ++o)
+            if (bits & bit_of(o))
+                std::fill_n(energy_.data() + o * cells_ * channels_ + begin, end - begin,
+                            std::uint64_t{0});
     });
     std::fill(touched_.begin(), touched_.end(), std::uint8_t{0});
-    later_.clear();
-    later_weights_.clear();
     for (auto* account : {&escaped_by_bounce_, &absorbed_, &truncated_, &edge_})
         std::fill(account->begin(), account->end(), std::uint64_t{0});
     rays = segments = reflections = stuck = counted_ = 0;
@@ -215,45 +200,40 @@ void LayerSums::add(const BatchSums& b) {
             scaled(std::accumulate(first, first + bounces_, std::uint64_t{0}), b.rays));
     }
     add_cells(b, counted);
-    add_later_orders(b);
 }
 
 void LayerSums::add_cells(const BatchSums& b, std::uint64_t counted) {
     CellSpreads& s = cell_spread_;
     const bool smaller = b.rays != largest_batch_;
     if (smaller && s.stretched.empty()) s.stretched.resize(channels_ * cells_);
-    const std::uint64_t* added = b.energy_.data();
-    std::uint64_t* sums = energy_.data();
     Wide* squares = s.squares.data();
     Wide* by_counted = s.by_counted.empty() ? nullptr : s.by_counted.data();
-    b.for_touched([&](std::size_t begin, std::size_t end) {
+    std::array<std::uint64_t, BatchSums::kBlock * kMaxChannels> total;
+    b.for_touched([&](std::size_t begin, std::size_t end, std::uint8_t bits) {
+        // Orders by themselves, and all together
+        std::fill_n(total.begin(), end - begin, std::uint64_t{0});
+        for (std::size_t o = 0; o < orders_; ++o) {
+            if (!(bits & BatchSums::bit_of(o))) continue;
+            const std::uint64_t* added = b.energy_.data() + o * cells_ * channels_;
+            std::uint64_t* sums = energy_.data() + o * cells_ * channels_;
+            for (std::size_t k = begin; k < end; ++k) {
+                sums[k] += added[k];
+                total[k - begin] += added[k];
+            }
+        }
+        // What their spread will be told from
         for (std::size_t k = begin; k < end; ++k) {
-            std::uint64_t energy = added[k];
+            std::uint64_t energy = total[k - begin];
             if (energy == 0) continue;
-            sums[k] += energy;
             if (smaller) {
-                energy = scaled(energy, b.rays);
-                s.stretched[k] += energy - added[k];
+                const std::uint64_t stretched = scaled(energy, b.rays);
+                s.stretched[k] += stretched - energy;
+                energy = stretched;
             }
             squares[k] += Wide{energy} * energy;
             if (by_counted) by_counted[k] += Wide{energy} * counted;
         }
     });
-}
-
-void LayerSums::add_later_orders(const BatchSums& b) {
-    const std::size_t count = b.later_.size(), channels = channels_;
-    const std::uint32_t* places = b.later_.data();
-    const float* weight = b.later_weights_.size() > 0 ? b.later_weights_.data() : nullptr;
-    std::uint64_t* energy = energy_.data();
-    for (std::size_t k = 0; k < count; ++k) {
-        __builtin_prefetch(energy + places[std::min(k + kAhead, count - 1)], 1);
-        std::uint64_t* sums = energy + places[k];
-        if (!weight)
-            *sums += kRayEnergy;
-        else
-            for (std::size_t c = 0; c < channels; ++c) sums[c] += to_energy(double{*weight++});
-    }
 }
 
 LayerSums::Estimate LayerSums::estimate(double sum, double excess) const {
@@ -279,16 +259,14 @@ LayerSums::Estimate LayerSums::estimate(const Spread& s) const {
     return estimate(static_cast<double>(s.sum), excess(s));
 }
 
-LayerSums::Estimate LayerSums::estimate(std::size_t cell, std::size_t channel, std::uint64_t energy,
+LayerSums::Estimate LayerSums::estimate(std::size_t k, std::uint64_t sum, std::uint64_t each,
                                         double of_counted) const {
-    const std::size_t k = cell * channels_ + channel;
-    const std::uint64_t sum =
-        energy_[k] + (cell_spread_.stretched.empty() ? 0 : cell_spread_.stretched[k]);
+    if (!cell_spread_.stretched.empty()) sum += cell_spread_.stretched[k];
     const Wide squares = cell_spread_.squares[k];
-    if (energy == 0) return estimate(Spread{sum, squares});
+    if (each == 0) return estimate(Spread{sum, squares});
     // With n counted rays of energy f each beside e: (e + f n)^2, term by term
     const Spread& n = counted_spread_;
-    const double f = std::ldexp(static_cast<double>(energy), -kCountShift);
+    const double f = std::ldexp(static_cast<double>(each), -kCountShift);
     return estimate(static_cast<double>(sum) + f * static_cast<double>(n.sum),
                     excess(squares, sum, sum) +
                         2 * f * excess(cell_spread_.by_counted[k], sum, n.sum) +
@@ -307,13 +285,17 @@ void LayerSums::for_cells(Work work) const {
 
 LayerSums::Errors LayerSums::relative_errors() const {
     Errors worst;
+    const std::size_t order = channels_ * cells_;
     const double of_counted = excess(counted_spread_);
     for (std::size_t c = 0; c < channels_; ++c) {
         worst.albedo = std::max(worst.albedo, estimate(albedo_spread_[c]).relative());
         // The strongest cells that together carry 90 % of the energy
         std::vector<Estimate> cells;
         for_cells([&](std::size_t cell, std::ptrdiff_t k) {
-            cells.push_back(estimate(cell, c, counted_energy(k, c), of_counted));
+            const std::size_t place = cell * channels_ + c;
+            std::uint64_t sum = 0;
+            for (std::size_t o = 0; o < orders_; ++o) sum += energy_[o * order + place];
+            cells.push_back(estimate(place, sum, counted_energy(k, c), of_counted));
         });
         std::sort(cells.begin(), cells.end(),
                   [](const Estimate& a, const Estimate& b) { return a.mean > b.mean; });
@@ -334,21 +316,22 @@ void LayerSums::write(Layer& layer) const {
     layer.stuck = stuck_;
     layer.batches = batches_;
     layer.energy.resize(energy_.size());
-    layer.stderr_energy.resize(channels_ * cells_);
+    layer.stderr_energy.assign(channels_ * cells_, 0);
     layer.escaped.assign(channels_, 0);
     const std::size_t order = channels_ * cells_;
     const double of_counted = excess(counted_spread_);
     for_cells([&](std::size_t cell, std::ptrdiff_t k) {
         for (std::size_t c = 0; c < channels_; ++c) {
-            std::uint64_t* out = &layer.energy[c * cells_ + cell];
-            const std::uint64_t* sums = &energy_[cell * channels_ + c];
-            const std::uint64_t each = counted_energy(k, c), all = sums[0] + counted_ * each;
-            layer.escaped[c] += all;
-            // The first order is what the others leave of the sum of all
-            out[0] = all;
-            for (std::size_t o = 1; o < orders_; ++o) out[0] -= out[o * order] = sums[o * order];
-            layer.stderr_energy[c * cells_ + cell] =
-                all == 0 ? 0 : static_cast<float>(estimate(cell, c, each, of_counted).error);
+            const std::size_t place = cell * channels_ + c, out = c * cells_ + cell;
+            std::uint64_t sum = 0;
+            for (std::size_t o = 0; o < orders_; ++o)
+                sum += layer.energy[o * order + out] = energy_[o * order + place];
+            const std::uint64_t each = counted_energy(k, c), counted = counted_ * each;
+            layer.energy[out] += counted;
+            layer.escaped[c] += sum + counted;
+            if (sum + counted > 0)
+                layer.stderr_energy[out] =
+                    static_cast<float>(estimate(place, sum, each, of_counted).error);
         }
     });
     layer.absorbed = absorbed_;

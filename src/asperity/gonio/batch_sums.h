@@ -60,48 +60,29 @@ class BatchSums {
 
   private:
     friend class LayerSums;
-    /// Calls work(begin, end) for blocks of cells that hold energy, as places in energy_.
+    static constexpr std::size_t kBlock = 16;  ///< cells
+    /// A block that holds energy of an order has that bit; from the last one on they share it.
+    static std::uint8_t bit_of(std::size_t order) {
+        return static_cast<std::uint8_t>(1u << std::min<std::size_t>(order, 7));
+    }
+    /// Calls work(begin, end, bits) for blocks of cells that hold energy, with places of a cell's
+    /// first channel.
     template <class Work>
     void for_touched(Work work) const;
     /// Books the paths' energy under `account` and the rest of it as absorbed.
     void settle(std::vector<std::uint64_t>& account, const PerPath<std::int32_t>& paths,
                 std::size_t count, const Weights& weights);
-    /// The same for `kCount` channels from `first` on; what each path carries is also written to
-    /// `later`, [k * channels + channel], if that is not null.
+    /// Books the energy of paths that left, in `kCount` channels from `first` on, by cell, `sums`,
+    /// and by bounce.
     template <std::size_t kCount>
     void escape_weighted(const PerPath<std::int32_t>& cells, const PerPath<std::int32_t>& paths,
                          std::size_t count, std::size_t bounce, const Weights& weights,
-                         std::size_t first, float* later);
-    /// A list that forgets its values, but keeps their room.
-    template <class T>
-    class List {
-      public:
-        /// Room for so many more values.
-        T* append(std::size_t count) {
-            if (count_ + count > values_.size())
-                values_.resize(std::max(2 * values_.size(), count_ + count));
-            count_ += count;
-            return values_.data() + (count_ - count);
-        }
-        void clear() { count_ = 0; }
-        std::size_t size() const { return count_; }
-        const T* data() const { return values_.data(); }
-
-      private:
-        std::vector<T> values_;
-        std::size_t count_ = 0;
-    };
-
-    static constexpr std::size_t kBlock = 16;  ///< cells
+                         std::size_t first, std::uint64_t* sums);
 
     std::size_t cells_, channels_, orders_, bounces_;
-    // All orders of a cell together, so that few bytes are touched at random; what is of a later
-    // order is noted once more, one by one
-    std::vector<std::uint64_t> energy_;  ///< [cell * channels + channel]
-    List<std::uint32_t> later_;          ///< places in LayerSums::energy_, first channel
-    List<float> later_weights_;          ///< [k * channels + channel]; none of perfect mirrors
+    std::vector<std::uint64_t> energy_;  ///< [(order * cells + cell) * channels + channel]
+    std::vector<std::uint8_t> touched_;  ///< by block: bits of the orders of which it holds energy
     std::uint64_t counted_ = 0;          ///< rays of escape_counted: not in energy_
-    std::vector<std::uint8_t> touched_;  ///< by block of cells: whether it holds energy
     std::vector<std::uint64_t> escaped_by_bounce_;  ///< [channel * bounces + order]
     std::vector<std::uint64_t> absorbed_, truncated_, edge_;
 };
@@ -167,7 +148,6 @@ class LayerSums {
     }
     std::uint64_t scaled(std::uint64_t energy, std::uint64_t rays) const;
     void add_cells(const BatchSums& batch, std::uint64_t counted);
-    void add_later_orders(const BatchSums& batch);
     /// Calls work(cell, k) for each cell, where k tells its place in light_->cells(), or -1.
     template <class Work>
     void for_cells(Work work) const;
@@ -179,8 +159,7 @@ class LayerSums {
     std::uint64_t largest_batch_;
     int batches_ = 0;
     std::uint64_t rays_ = 0, segments_ = 0, reflections_ = 0, stuck_ = 0;
-    /// [(order * cells + cell) * channels + channel]; first of all the sum of all orders.
-    std::vector<std::uint64_t> energy_;
+    std::vector<std::uint64_t> energy_;  ///< as of the batches
     std::vector<std::uint64_t> escaped_by_bounce_, absorbed_, truncated_, edge_;
     CellSpreads cell_spread_;
     std::vector<Spread> bounce_spread_;  ///< [channel * bounces + order]
