@@ -55,7 +55,6 @@ BatchSums::BatchSums(int cells, int channels, int orders, int bounces)
       channels_(index(channels)),
       orders_(index(orders)),
       bounces_(index(bounces)),
-      energy_(orders_ * cells_ * channels_),
       touched_((cells_ + kBlock - 1) / kBlock),
       escaped_by_bounce_(channels_ * bounces_),
       absorbed_(channels_),
@@ -67,9 +66,10 @@ void BatchSums::escape(const PerPath<std::int32_t>& cells, const PerPath<std::in
     const std::size_t bounce = index(order - 1), kept = std::min(bounce, orders_ - 1);
     const std::uint8_t bit = bit_of(kept);
     std::uint8_t* touched = touched_.data();
-    for (std::size_t k = 0; k < count; ++k) touched[index(cells[k]) / kBlock] |= bit;
-    std::uint64_t* sums = energy_.data() + kept * cells_ * channels_;
     if (!weights.empty()) {
+        for (std::size_t k = 0; k < count; ++k) touched[index(cells[k]) / kBlock] |= bit;
+        energy_.resize(orders_ * cells_ * channels_);
+        std::uint64_t* sums = energy_.data() + kept * cells_ * channels_;
         // Colours at once, as this takes a good part of the time of a metal
         std::size_t c = 0;
         for (; c + 3 <= channels_; c += 3)
@@ -78,9 +78,13 @@ void BatchSums::escape(const PerPath<std::int32_t>& cells, const PerPath<std::in
             escape_weighted<1>(cells, paths, count, bounce, weights, c, sums + c);
         return;
     }
+    count_.resize(orders_ * cells_);
+    std::uint32_t* counts = count_.data() + kept * cells_;
     for (std::size_t k = 0; k < count; ++k) {
-        __builtin_prefetch(sums + cells[std::min(k + kAhead, count - 1)], 1);
-        sums[cells[k]] += kRayEnergy;
+        __builtin_prefetch(counts + cells[std::min(k + kAhead, count - 1)], 1);
+        const std::size_t cell = index(cells[k]);
+        ++counts[cell];
+        touched[cell / kBlock] |= bit;
     }
     escaped_by_bounce_[bounce] += count * kRayEnergy;
 }
@@ -142,12 +146,16 @@ void BatchSums::settle(std::vector<std::uint64_t>& account, const PerPath<std::i
 }
 
 void BatchSums::clear() {
-    for_touched([&](std::size_t begin, std::size_t end, std::uint8_t bits) {
-        for (std::size_t o = 0; o < orders_; ++o)
-            if (bits & bit_of(o))
-                std::fill_n(energy_.data() + o * cells_ * channels_ + begin, end - begin,
-                            std::uint64_t{0});
-    });
+    const auto forget = [&](auto& values) {
+        if (values.empty()) return;
+        for_touched([&](std::size_t begin, std::size_t end, std::uint8_t bits) {
+            for (std::size_t o = 0; o < orders_; ++o)
+                if (bits & bit_of(o))
+                    std::fill_n(values.data() + o * cells_ * channels_ + begin, end - begin, 0u);
+        });
+    };
+    forget(energy_);
+    forget(count_);
     std::fill(touched_.begin(), touched_.end(), std::uint8_t{0});
     for (auto* account : {&escaped_by_bounce_, &absorbed_, &truncated_, &edge_})
         std::fill(account->begin(), account->end(), std::uint64_t{0});
@@ -199,10 +207,13 @@ void LayerSums::add(const BatchSums& b) {
         albedo_spread_[c].add(
             scaled(std::accumulate(first, first + bounces_, std::uint64_t{0}), b.rays));
     }
-    add_cells(b, counted);
+    if (!b.energy_.empty()) add_cells(b, b.energy_, 1, counted);
+    if (!b.count_.empty()) add_cells(b, b.count_, kRayEnergy, counted);
 }
 
-void LayerSums::add_cells(const BatchSums& b, std::uint64_t counted) {
+template <class Value>
+void LayerSums::add_cells(const BatchSums& b, const std::vector<Value>& values, std::uint64_t unit,
+                          std::uint64_t counted) {
     CellSpreads& s = cell_spread_;
     const bool smaller = b.rays != largest_batch_;
     if (smaller && s.stretched.empty()) s.stretched.resize(channels_ * cells_);
@@ -214,11 +225,12 @@ void LayerSums::add_cells(const BatchSums& b, std::uint64_t counted) {
         std::fill_n(total.begin(), end - begin, std::uint64_t{0});
         for (std::size_t o = 0; o < orders_; ++o) {
             if (!(bits & BatchSums::bit_of(o))) continue;
-            const std::uint64_t* added = b.energy_.data() + o * cells_ * channels_;
+            const Value* added = values.data() + o * cells_ * channels_;
             std::uint64_t* sums = energy_.data() + o * cells_ * channels_;
             for (std::size_t k = begin; k < end; ++k) {
-                sums[k] += added[k];
-                total[k - begin] += added[k];
+                const std::uint64_t energy = added[k] * unit;
+                sums[k] += energy;
+                total[k - begin] += energy;
             }
         }
         // What their spread will be told from

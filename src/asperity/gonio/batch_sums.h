@@ -80,9 +80,12 @@ class BatchSums {
                          std::size_t first, std::uint64_t* sums);
 
     std::size_t cells_, channels_, orders_, bounces_;
-    std::vector<std::uint64_t> energy_;  ///< [(order * cells + cell) * channels + channel]
+    // One of these, made when it is first needed: energies of paths that have weights, [(order *
+    // cells + cell) * channels + channel], or numbers of those that have lost nothing
+    std::vector<std::uint64_t> energy_;
+    std::vector<std::uint32_t> count_;
     std::vector<std::uint8_t> touched_;  ///< by block: bits of the orders of which it holds energy
-    std::uint64_t counted_ = 0;          ///< rays of escape_counted: not in energy_
+    std::uint64_t counted_ = 0;          ///< rays of escape_counted, which are not in there
     std::vector<std::uint64_t> escaped_by_bounce_;  ///< [channel * bounces + order]
     std::vector<std::uint64_t> absorbed_, truncated_, edge_;
 };
@@ -147,7 +150,11 @@ class LayerSums {
         return excess(spread.squares, spread.sum, spread.sum);
     }
     std::uint64_t scaled(std::uint64_t energy, std::uint64_t rays) const;
-    void add_cells(const BatchSums& batch, std::uint64_t counted);
+    /// Adds the batch's `values` by cell, each in units of so much energy; `counted` rays of it
+    /// were only counted, scaled.
+    template <class Value>
+    void add_cells(const BatchSums& batch, const std::vector<Value>& values, std::uint64_t unit,
+                   std::uint64_t counted);
     /// Calls work(cell, k) for each cell, where k tells its place in light_->cells(), or -1.
     template <class Work>
     void for_cells(Work work) const;
@@ -159,7 +166,7 @@ class LayerSums {
     std::uint64_t largest_batch_;
     int batches_ = 0;
     std::uint64_t rays_ = 0, segments_ = 0, reflections_ = 0, stuck_ = 0;
-    std::vector<std::uint64_t> energy_;  ///< as of the batches
+    std::vector<std::uint64_t> energy_;  ///< [(order * cells + cell) * channels + channel]
     std::vector<std::uint64_t> escaped_by_bounce_, absorbed_, truncated_, edge_;
     CellSpreads cell_spread_;
     std::vector<Spread> bounce_spread_;  ///< [channel * bounces + order]
