@@ -9,7 +9,7 @@ import time
 from program import PROGRAM, ProgramTest, main
 
 # Minutes of work.
-LONG = ["simulate", "--surface", "gaussian", "--size", "256", "--jitter", "1000", "--resolution",
+LONG = ["simulate", "--surface", "gaussian", "--size", "256", "--jitter", "50000", "--resolution",
         "32", "-o", "r.asperity"]
 
 # Seconds: the promise is 0.1 to stop tracing; saving and a loaded machine take theirs.

@@ -253,6 +253,8 @@ void SurfaceSceneTest::layer_changes_the_beam() {
 
 void SurfaceSceneTest::jitter_shows_copies_of_the_beam() {
     const auto reddish = [](QColor c) { return c.red() > 30 && c.red() > 2 * c.green() + 10; };
+    change([](StudioSettings& s) { s.experiment.run.jitter = 1; });
+    wait_for_picture();
     const int one = count(reddish);
     change([](StudioSettings& s) { s.experiment.run.jitter = 3; });
     wait_for_picture();

@@ -44,12 +44,11 @@ class PatchIntegrator {
     /// Adds the integral to `sum`, one value per channel.
     void integrate(const Patch& p, std::span<double> sum, int depth = 0) const {
         // Where the mirror direction is near, a lobe may hide between the points: look closer.
-        const bool look_closer = depth < kMinDepthAtMirror && near_mirror(p);
-        if (!look_closer) {
-            // Where f is small or smooth the first two rules are enough
-            const Channels one = gauss<1>(p, kNodes1, kWeights1);
+        const bool near = near_mirror(p);
+        if (!near || depth >= kMinDepthAtMirror) {
             Channels fine = gauss<2>(p, kNodes2, kWeights2);
-            bool close = differ_little(one, fine);
+            // Far from there f is smooth, and mostly small: the first two rules are enough
+            bool close = !near && differ_little(gauss<1>(p, kNodes1, kWeights1), fine);
             if (!close) {
                 const Channels coarse = fine;
                 fine = gauss<3>(p, kNodes3, kWeights3);

@@ -207,12 +207,12 @@ void LayerSums::add(const BatchSums& b) {
         albedo_spread_[c].add(
             scaled(std::accumulate(first, first + bounces_, std::uint64_t{0}), b.rays));
     }
-    if (!b.energy_.empty()) add_cells(b, b.energy_, 1, counted);
-    if (!b.count_.empty()) add_cells(b, b.count_, kRayEnergy, counted);
+    if (!b.energy_.empty()) add_cells<1>(b, b.energy_, counted);
+    if (!b.count_.empty()) add_cells<kRayEnergy>(b, b.count_, counted);
 }
 
-template <class Value>
-void LayerSums::add_cells(const BatchSums& b, const std::vector<Value>& values, std::uint64_t unit,
+template <std::uint64_t kUnit, class Value>
+void LayerSums::add_cells(const BatchSums& b, const std::vector<Value>& values,
                           std::uint64_t counted) {
     CellSpreads& s = cell_spread_;
     const bool smaller = b.rays != largest_batch_;
@@ -222,28 +222,28 @@ void LayerSums::add_cells(const BatchSums& b, const std::vector<Value>& values, 
     std::array<std::uint64_t, BatchSums::kBlock * kMaxChannels> total;
     b.for_touched([&](std::size_t begin, std::size_t end, std::uint8_t bits) {
         // Orders by themselves, and all together
-        std::fill_n(total.begin(), end - begin, std::uint64_t{0});
+        const std::size_t count = end - begin;
+        std::fill_n(total.begin(), count, std::uint64_t{0});
         for (std::size_t o = 0; o < orders_; ++o) {
             if (!(bits & BatchSums::bit_of(o))) continue;
-            const Value* added = values.data() + o * cells_ * channels_;
-            std::uint64_t* sums = energy_.data() + o * cells_ * channels_;
-            for (std::size_t k = begin; k < end; ++k) {
-                const std::uint64_t energy = added[k] * unit;
-                sums[k] += energy;
-                total[k - begin] += energy;
+            const Value* added = values.data() + o * cells_ * channels_ + begin;
+            std::uint64_t* sums = energy_.data() + o * cells_ * channels_ + begin;
+            for (std::size_t k = 0; k < count; ++k) {
+                sums[k] += added[k] * kUnit;
+                total[k] += added[k] * kUnit;
             }
         }
         // What their spread will be told from
-        for (std::size_t k = begin; k < end; ++k) {
-            std::uint64_t energy = total[k - begin];
-            if (energy == 0) continue;
-            if (smaller) {
-                const std::uint64_t stretched = scaled(energy, b.rays);
-                s.stretched[k] += stretched - energy;
-                energy = stretched;
+        if (smaller)
+            for (std::size_t k = 0; k < count; ++k) {
+                const std::uint64_t stretched = scaled(total[k], b.rays);
+                s.stretched[begin + k] += stretched - total[k];
+                total[k] = stretched;
             }
-            squares[k] += Wide{energy} * energy;
-            if (by_counted) by_counted[k] += Wide{energy} * counted;
+        for (std::size_t k = 0; k < count; ++k) {
+            if (total[k] == 0) continue;
+            squares[begin + k] += Wide{total[k]} * total[k];
+            if (by_counted) by_counted[begin + k] += Wide{total[k]} * counted;
         }
     });
 }

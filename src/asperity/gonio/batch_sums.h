@@ -152,9 +152,8 @@ class LayerSums {
     std::uint64_t scaled(std::uint64_t energy, std::uint64_t rays) const;
     /// Adds the batch's `values` by cell, each in units of so much energy; `counted` rays of it
     /// were only counted, scaled.
-    template <class Value>
-    void add_cells(const BatchSums& batch, const std::vector<Value>& values, std::uint64_t unit,
-                   std::uint64_t counted);
+    template <std::uint64_t kUnit, class Value>
+    void add_cells(const BatchSums& batch, const std::vector<Value>& values, std::uint64_t counted);
     /// Calls work(cell, k) for each cell, where k tells its place in light_->cells(), or -1.
     template <class Work>
     void for_cells(Work work) const;

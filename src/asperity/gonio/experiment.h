@@ -41,7 +41,10 @@ enum class LaunchPattern {
 };
 
 struct RunSettings {
-    double jitter = 1;           ///< Camera Jitter J: launch points per surface cell and layer
+    /// Camera Jitter J: launch points per surface cell and layer. By default 128 a cell of the
+    /// default detector on a surface of the default size: a tenth of noise in a cell, all cells
+    /// alike.
+    double jitter = 16;
     std::uint64_t rays = 0;      ///< per layer; 0: jitter x cells
     double until = 0;            ///< relative error of the albedo to reach, 0: none. See measure()
     double until_cells = 0;      ///< and of the cells; 0: the same as until
