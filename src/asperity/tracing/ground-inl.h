@@ -22,9 +22,11 @@ struct CellHeights {
 
 /// The surface, with its constants in registers. kLongRows: rows of 2^15 samples and more, too long
 /// for one packed multiplication.
-template <bool kLongRows>
+template <bool kLongRows, Gather kWay>
 class Ground {
   public:
+    static constexpr Gather kGather = kWay;
+
     HWY_INLINE explicit Ground(const WideGrid& grid)
         : per_x(all(grid.per_x)),
           per_y(all(grid.per_y)),
@@ -46,7 +48,7 @@ class Ground {
 
     /// Heights of the corners of a cell on the surface or in its margin.
     HWY_INLINE CellHeights corners(Ints cell) const {
-        const Fields f = gather_squares(middle_, pitch_, sample_of(cell));
+        const Fields f = gather_squares<kGather>(middle_, pitch_, sample_of(cell));
         return {f.a, f.b, f.c, f.d};
     }
     /// Fetches into the cache what the paths of some lanes will see that go on from `cell`.
@@ -85,7 +87,7 @@ class Ground {
     /// The slope above which nothing rises in this sector as seen from `cell`, which is inside.
     HWY_INLINE Floats horizon(Ints cell, Ints sector) const {
         const Ints at = hn::Add(entry_of(cell), sector);
-        const Floats byte = hn::ConvertTo(kFloat, gather_bytes(horizon_, at));
+        const Floats byte = hn::ConvertTo(kFloat, gather_bytes<kGather>(horizon_, at));
         const Floats slope = hn::Mul(hn::Mul(byte, byte), all(Horizon::kStep));
         return select(hn::Gt(byte, all(254.5f)), all(1e30f), slope);
     }
@@ -118,13 +120,20 @@ class Ground {
     const Ints first_, last_, cells_;
 };
 
-/// Calls work(ground) with the ground that fits the grid.
+/// Calls work(ground) with the ground that fits the grid and the processor.
 template <class Work>
 HWY_INLINE void on_ground(const WideGrid& grid, Work work) {
-    if (grid.pitch < 1 << 15)
-        work(Ground<false>(grid));
-    else
-        work(Ground<true>(grid));
+    if (grid.pitch >= 1 << 15) {
+        work(Ground<true, Gather::OneByOne>(grid));
+        return;
+    }
+#if ASPERITY_GATHERS_AT_ONCE
+    if (grid.gathers_pay) {
+        work(Ground<false, Gather::AtOnce>(grid));
+        return;
+    }
+#endif
+    work(Ground<false, Gather::OneByOne>(grid));
 }
 
 /// Horizon::sector_of.

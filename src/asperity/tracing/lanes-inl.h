@@ -111,6 +111,16 @@ HWY_INLINE Ints index_of(Ints vertex, std::int32_t pitch) {
 #endif
 }
 
+/// How values are brought together that lie apart in memory: with a load for each lane, or with the
+/// instructions that some processors have for it, of which some are slow. What is read is the same.
+enum class Gather { OneByOne, AtOnce };
+#undef ASPERITY_GATHERS_AT_ONCE
+#if HWY_TARGET == HWY_AVX3
+#define ASPERITY_GATHERS_AT_ONCE 1
+#else
+#define ASPERITY_GATHERS_AT_ONCE 0
+#endif
+
 /// The lanes of a vector in memory, to be read one by one.
 struct LaneArray {
     alignas(64) std::int32_t values[kLanes];
@@ -137,7 +147,13 @@ HWY_INLINE Floats gather(const float* from, Ints index) {
     return hn::Load(kFloat, out);
 #endif
 }
+/// from[index]; three bytes more may be read.
+template <Gather kGather>
 HWY_INLINE Ints gather_bytes(const std::uint8_t* from, Ints index) {
+#if ASPERITY_GATHERS_AT_ONCE
+    if constexpr (kGather == Gather::AtOnce)
+        return hn::And(Ints{_mm512_i32gather_epi32(index.raw, from, 1)}, all(0xff));
+#endif
     const LaneArray at(index);
     const hn::Rebind<std::uint8_t, IntTag> bytes;
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
@@ -199,10 +215,35 @@ HWY_INLINE Fields fields_of(Record record) {
             hn::BitCast(kFloat, hn::InterleaveUpper(kPair, high01, high23))};
 }
 
-/// The four 32-bit fields of records[index], with one load a lane.
-template <class Record>
+#if ASPERITY_GATHERS_AT_ONCE
+/// The first or the second (a, b) of the two values at index[lane] * kScale bytes from `from`, and
+/// of those at `other` (c, d).
+template <int kScale>
+HWY_INLINE Fields gather_pairs(const float* from, const float* other, Ints index) {
+    const __m256i low = _mm512_castsi512_si256(index.raw),
+                  high = _mm512_extracti64x4_epi64(index.raw, 1);
+    const auto pairs = [](const float* base, __m256i at) HWY_ATTR {
+        return Floats{_mm512_castpd_ps(_mm512_i32gather_pd(at, base, kScale))};
+    };
+    const Floats first_low = pairs(from, low), first_high = pairs(from, high),
+                 second_low = pairs(other, low), second_high = pairs(other, high);
+    return {hn::ConcatEven(kFloat, first_high, first_low),
+            hn::ConcatOdd(kFloat, first_high, first_low),
+            hn::ConcatEven(kFloat, second_high, second_low),
+            hn::ConcatOdd(kFloat, second_high, second_low)};
+}
+#endif
+
+/// The four 32-bit fields of records[index].
+template <Gather kGather, class Record>
 HWY_INLINE Fields gather_fields(const Record* records, Ints index) {
     static_assert(sizeof(Record) == 4 * sizeof(float));
+#if ASPERITY_GATHERS_AT_ONCE
+    if constexpr (kGather == Gather::AtOnce) {
+        const float* from = reinterpret_cast<const float*>(records);
+        return gather_pairs<8>(from, from + 2, hn::ShiftLeft<1>(index));
+    }
+#endif
     const LaneArray at(index);
     const hn::CappedTag<float, 4> four;
     return fields_of([&](std::size_t lane) HWY_ATTR {
@@ -210,8 +251,12 @@ HWY_INLINE Fields gather_fields(const Record* records, Ints index) {
     });
 }
 
-/// from[index], the value behind it, and the two that lie `pitch` further, with two loads a lane.
+/// from[index], the value behind it, and the two that lie `pitch` further: as two pairs.
+template <Gather kGather>
 HWY_INLINE Fields gather_squares(const float* from, std::ptrdiff_t pitch, Ints index) {
+#if ASPERITY_GATHERS_AT_ONCE
+    if constexpr (kGather == Gather::AtOnce) return gather_pairs<4>(from, from + pitch, index);
+#endif
     const LaneArray at(index);
     const hn::CappedTag<double, 2> two;  // of two values each
     const hn::Half<decltype(two)> one;

@@ -13,7 +13,8 @@ struct WideGrid {
     WideGrid(const PaddedHeights& heights, const Horizon& horizon);
 
     // How to trace follows from the surface alone, never from how it went so far: the same bits
-    // for any number of threads.
+    // for any number of threads. Which way memory is read follows from the processor; it changes
+    // no bit.
 
     const float* middle;  ///< sample (middle_x, middle_y): packed vertices are counted from here
     int pitch;            ///< samples from row to row
@@ -26,6 +27,7 @@ struct WideGrid {
     int horizon_pitch, pool_shift;
     bool horizon_pays;   ///< enough paths are free by their facet's horizon to look at it
     bool leaps_pay;      ///< the surface is smooth enough for paths to leap
+    bool gathers_pay;    ///< as gathers_pay()
     float longest_leap;  ///< cells a path may leap over, so that one wrap brings it home
 };
 

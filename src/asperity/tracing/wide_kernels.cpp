@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <asperity/tracing/gathers_pay-inl.h>
 #include <asperity/tracing/wide_land-inl.h>
 #include <asperity/tracing/wide_launch-inl.h>
 #include <asperity/tracing/wide_leave-inl.h>
@@ -16,6 +17,7 @@
 #if HWY_ONCE
 namespace asperity {
 
+HWY_EXPORT(GathersPay);
 HWY_EXPORT(LaunchInLines);
 HWY_EXPORT(LaunchStraightDown);
 HWY_EXPORT(PartFree);
@@ -24,6 +26,9 @@ HWY_EXPORT(Release);
 HWY_EXPORT(Land);
 HWY_EXPORT(LandParallel);
 
+bool gathers_pay() {
+    return HWY_DYNAMIC_DISPATCH(GathersPay)();
+}
 bool launch_in_lines(const WideGrid& grid, const PaddedHeights& heights, LaunchLine& line,
                      LaunchStripe& stripe, const CountedFacets& known, std::size_t room,
                      LaunchHits& hits, std::size_t& counted) {
@@ -44,9 +49,9 @@ void walk(const WideGrid& grid, const FacetPoints& points, Directions& direction
     HWY_DYNAMIC_DISPATCH(Walk)
     (grid, points, directions, start_height, most_rounds, walkers, hits, leavers);
 }
-void release(const Leavers& leavers, const Directions& directions, bool with_places,
+void release(const WideGrid& grid, const Leavers& leavers, const Directions& directions,
              Escapes& escapes) {
-    HWY_DYNAMIC_DISPATCH(Release)(leavers, directions, with_places, escapes);
+    HWY_DYNAMIC_DISPATCH(Release)(grid, leavers, directions, escapes);
 }
 void land(const WideGrid& grid, const RawHits& hits, const Directions& directions,
           FacetPoints& points) {

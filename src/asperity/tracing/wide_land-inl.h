@@ -96,10 +96,11 @@ HWY_INLINE Fallen identify(const GroundT& ground, const RawHits& hits, const Fie
 void Land(const WideGrid& grid, const RawHits& hits, const Directions& directions,
           FacetPoints& points) {
     on_ground(grid, [&](const auto& ground) HWY_ATTR {
+        constexpr Gather kGather = std::decay_t<decltype(ground)>::kGather;
         for (std::size_t k = 0; k < hits.count; k += kLanes) {
             const Mask valid = first_lanes(k, hits.count);
             const Fields heading =
-                gather_fields(directions.headings.values, only(valid, load(hits.ray, k)));
+                gather_fields<kGather>(directions.headings.values, only(valid, load(hits.ray, k)));
             land_at(ground, identify(ground, hits, heading, k), valid, points, k);
             store(heading.a, points.x, k);
             store(heading.b, points.y, k);
@@ -116,10 +117,11 @@ void LandParallel(const WideGrid& grid, const LaunchLine& line, const LaunchHits
         const Line light =
             line_of(ground, all(static_cast<float>(direction.x)),
                     all(static_cast<float>(direction.y)), all(static_cast<float>(direction.z)));
+        constexpr Gather kGather = std::decay_t<decltype(ground)>::kGather;
         for (std::size_t k = 0; k < hits.count; k += kLanes) {
             const Mask valid = first_lanes(k, hits.count);
             const Fields triangle =
-                gather_fields(line.triangles(), only(valid, load(hits.triangle, k)));
+                gather_fields<kGather>(line.triangles(), only(valid, load(hits.triangle, k)));
             const Ints corner = plus(load(hits.cell, k), hn::BitCast(kInt, triangle.a));
             const Floats side = triangle.b;
             const Fallen fallen{cell_of(corner, side), negative(side), triangle.c,
@@ -134,7 +136,7 @@ void LandParallel(const WideGrid& grid, const LaunchLine& line, const LaunchHits
 /// appended to `points`.
 void LaunchStraightDown(const WideGrid& grid, float u, float v, const LaunchedRow& row,
                         const CountedFacets& known, FacetPoints& points, std::size_t& counted) {
-    const Ground<true> ground(grid);
+    const Ground<true, Gather::OneByOne> ground(grid);
     const bool upper = u + v >= 1;
     const int corner = upper ? 1 : 0, step = upper ? -1 : 1;
     const float* at = grid.middle +

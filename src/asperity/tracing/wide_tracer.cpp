@@ -147,7 +147,7 @@ void WideTracer::walk(PathWave& wave, bool from_above) const {
     for (std::size_t k = 0; k < work.walkers.count; ++k)
         wave.stuck[wave.stuck_count++] =
             wave.arriving().path[static_cast<std::size_t>(work.walkers.ray[k])];
-    release(work.leavers, wave.arriving(), !heights_.periodic(), wave.escapes);
+    release(grid_, work.leavers, wave.arriving(), wave.escapes);
     if (!heights_.periodic()) settle_edges(wave);
     asperity::land(grid_, work.raw, wave.arriving(), wave.points);
 }

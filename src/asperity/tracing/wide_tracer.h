@@ -72,6 +72,8 @@ class WideTracer {
     const PaddedHeights& heights() const { return heights_; }
     /// The surface as the kernels see it.
     const WideGrid& grid() const { return grid_; }
+    /// Says how memory is read, in place of what was measured; changes no result. For tests.
+    void let_gathers_pay(bool pay) { grid_.gathers_pay = pay; }
     std::size_t memory_bytes() const;
 
     /// Forgets all paths of the wave.
@@ -117,7 +119,7 @@ class WideTracer {
     const int surface_cells_x_, surface_cells_y_;
     const PaddedHeights heights_;
     const Horizon horizon_;
-    const WideGrid grid_;
+    WideGrid grid_;
 };
 
 }  // namespace asperity

@@ -37,6 +37,34 @@ TEST_P(WideTracerOn, AgreesWithThePlainTracerRayByRay) {
         }
 }
 
+TEST_P(WideTracerOn, EitherWayToReadMemoryGivesTheSameBits) {
+    const Heightfield s = test::surface_of(GetParam(), 128);
+    WideTracer wide(s, 1);
+    const CounterRandom random(7, 0);
+    std::vector<Ray> rays[2];
+    std::vector<RayEnd> ends[2];
+    for (const bool pay : {false, true}) {
+        wide.let_gathers_pay(pay);
+        std::vector<Ray>& r = rays[pay];
+        for (std::uint64_t n = 0; n < 5000; ++n) {
+            const auto place = random.uniform2(n, 0), cell = random.uniform2(n, 1);
+            r.push_back({static_cast<int>(128 * cell[0]), static_cast<int>(128 * cell[1]), place[0],
+                         place[1], double{wide.max_height()}, test::slanted(n)});
+        }
+        // Down to the surface, and from there on where they came from
+        ends[pay].resize(r.size());
+        wide.trace(r, ends[pay]);
+        for (Ray& ray : r) ray.direction.z = -ray.direction.z;
+        wide.trace(r, ends[pay]);
+    }
+    EXPECT_EQ(ends[0], ends[1]);
+    for (std::size_t k = 0; k < rays[0].size(); ++k) {
+        const Ray &a = rays[0][k], &b = rays[1][k];
+        EXPECT_TRUE(a.i == b.i && a.j == b.j && a.u == b.u && a.v == b.v && a.z == b.z &&
+                    a.facet == b.facet);
+    }
+}
+
 /// Rays straight down onto a row, against the plain tracer's one by one.
 TEST_P(WideTracerOn, LaunchesRowsAsThePlainTracerRayByRay) {
     const Heightfield s = test::surface_of(GetParam(), 128);

@@ -325,13 +325,14 @@ void Walk(const WideGrid& grid, const FacetPoints& points, Directions& direction
 }
 
 /// Fetches the directions of the paths that are out.
-void Release(const Leavers& leavers, const Directions& directions, bool with_places,
-             Escapes& escapes) {
+template <Gather kGather>
+void release_by(const Leavers& leavers, const Directions& directions, bool with_places,
+                Escapes& escapes) {
     const auto append = [&](Floats x, PerPath<float>& to, std::size_t k)
                             HWY_ATTR { hn::StoreU(x, kFloat, to.values + escapes.count + k); };
     for (std::size_t k = 0; k < leavers.count; k += kLanes) {
         const Ints ray = only(first_lanes(k, leavers.count), load(leavers.ray, k));
-        const Fields heading = gather_fields(directions.headings.values, ray);
+        const Fields heading = gather_fields<kGather>(directions.headings.values, ray);
         append(heading.a, escapes.x, k);
         append(heading.b, escapes.y, k);
         append(heading.c, escapes.z, k);
@@ -343,6 +344,13 @@ void Release(const Leavers& leavers, const Directions& directions, bool with_pla
         }
     }
     escapes.count += leavers.count;
+}
+void Release(const WideGrid& grid, const Leavers& leavers, const Directions& directions,
+             Escapes& escapes) {
+    on_ground(grid, [&](const auto& ground) HWY_ATTR {
+        release_by<std::decay_t<decltype(ground)>::kGather>(leavers, directions, !ground.periodic,
+                                                            escapes);
+    });
 }
 
 }  // namespace asperity::HWY_NAMESPACE
