@@ -49,7 +49,7 @@ Seconds run_once(const Experiment& experiment, int threads, const std::string& p
     const Heightfield surface = io::load_surface(experiment.surface, run);
     seconds[kSurface] = lap();
     statistics(surface, run.threads());
-    const double one_statistics = lap();
+    seconds[kStatistics] = lap();
 
     const Measurement m = measure(surface, experiment, run);
     const double measuring = lap();
@@ -62,9 +62,7 @@ Seconds run_once(const Experiment& experiment, int threads, const std::string& p
     const Measurement few_cells = measure(surface, coarse, run);
     seconds[kBinning] = std::max(0.0, m.trace_seconds - few_cells.trace_seconds);
     seconds[kTracing] = m.trace_seconds - seconds[kBinning];
-    // Once before measuring, for the line about the surface, and once in measure()
-    seconds[kStatistics] = 2 * one_statistics;
-    seconds[kSetup] = std::max(0.0, measuring - m.trace_seconds - one_statistics);
+    seconds[kSetup] = std::max(0.0, measuring - m.trace_seconds - seconds[kStatistics]);
     return seconds;
 }
 

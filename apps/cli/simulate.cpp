@@ -18,7 +18,6 @@
 #include <asperity/io/result_file.h>
 #include <asperity/io/surface_files.h>
 #include <asperity/optics/fresnel.h>
-#include <asperity/surface/statistics.h>
 
 #include <fmt/format.h>
 
@@ -85,13 +84,16 @@ class SimulateVerb {
         ProgressBar progress(run, quiet_);
 
         const Heightfield surface = io::load_surface(experiment.surface, run);
-        progress.clear();
-        describe(say, experiment.surface, surface, run);
+        MeasureListener listener;
+        listener.begun = [&](const Measurement& head) {
+            progress.clear();
+            describe(say, head, surface);
+        };
         // A run that refines until it is accurate gives each layer the rays it needs.
         if (experiment.run.until == 0) {
             progress.count_layers(incidences(experiment.illumination).size());
         }
-        const Measurement m = measure(surface, experiment, run);
+        const Measurement m = measure(surface, experiment, run, listener);
         progress.clear();
 
         if (m.stopped && m.layers.empty()) {
@@ -115,11 +117,10 @@ class SimulateVerb {
         if (output_->count() > 0) check_output_file(text_of(output_));
     }
 
-    void describe(const Talk& say, const SurfaceSettings& settings, const Heightfield& surface,
-                  const Run& run) const {
+    void describe(const Talk& say, const Measurement& head, const Heightfield& surface) const {
         if (quiet_) return;
-        const SurfaceStatistics figures = statistics(surface, run.threads());
-        say("surface: " + surface_line(settings, figures, surface.nx, surface.ny) + "\n");
+        const SurfaceSettings& settings = head.experiment.surface;
+        say("surface: " + surface_line(settings, head.surface, surface.nx, surface.ny) + "\n");
         const std::string tiling = tiling_line(settings, surface);
         if (!tiling.empty()) say("surface: " + tiling + "\n");
     }
