@@ -153,7 +153,7 @@ class Gonioreflectometer {
         run_.begin("tracing", rays_ahead_);
         // All threads prepare the first layer; each of the others is prepared by one of them while
         // the one before is traced
-        if (const auto first = schedule_.next()) prepare(first->layer, run_.threads());
+        if (const auto first = schedule_.next()) prepare_layer(first->layer, run_.threads());
         const auto workers = static_cast<std::size_t>(run_.threads());
         parallel_for(workers, run_.threads(), [&](std::size_t) { work(); });
         run_.end();
@@ -181,7 +181,7 @@ class Gonioreflectometer {
             if (!piece) return;
             LayerInWork& layer = layers_[piece->layer];
             if (piece->kind == LayerSchedule::Piece::Kind::Prepare) {
-                prepare(piece->layer, 1);
+                prepare_layer(piece->layer, 1);
             } else if (trace(layer, piece->batch, follower, sums)) {
                 report_.grown(piece->layer, [&](Layer& grown) {
                     const std::scoped_lock lock(layer.mutex);
@@ -194,7 +194,7 @@ class Gonioreflectometer {
 
     /// Many rays meet the same facets: what becomes of them is worked out once, where it is
     /// certain.
-    void prepare(std::size_t k, int threads) {
+    void prepare_layer(std::size_t k, int threads) {
         LayerInWork& layer = layers_[k];
         const bool in_rows =
             experiment_.run.launch == LaunchPattern::LowDiscrepancy && !layer.light.isotropic;
