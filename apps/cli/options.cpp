@@ -77,7 +77,8 @@ constexpr OptionInfo kOptions[] = {
      "bounce orders kept apart per cell; the last one holds all higher ones"},
 
     {"bounces", "B", kRun, "reflections a ray may make; what still travels then is truncated"},
-    {"jitter", "J", kRun, "rays per surface cell and layer (the thesis' Camera Jitter)"},
+    {"jitter", "J", kRun, "rays per surface cell and layer (the thesis' Camera Jitter)",
+     "16, or fewer on more than 4 million cells"},
     {"rays", "N", kRun, "rays per layer, in place of --jitter", "jitter x cells"},
     {"until", "P[,Q]", kRun,
      "go on until the relative standard error of the albedo is below P, and that of the cells with "
@@ -220,6 +221,7 @@ Experiment ExperimentOptions::read(const std::string& spec) {
         if (value.find_first_not_of(" \t") == value.npos)
             throw Error(ErrorCode::Usage, "the value is empty", key);
         io::apply_setting(experiment, key, value);
+        note_given(key);
     }
     // Perfect mirrors have neither index nor material: who gives one means what it implies. A
     // config file that says both means what it says.
@@ -228,6 +230,10 @@ Experiment ExperimentOptions::read(const std::string& spec) {
     if (fresnel == FresnelKind::None && !given("fresnel") && (hinted || !fresnel_in_config_))
         fresnel = implied_fresnel(experiment.optics);
     return experiment;
+}
+
+void ExperimentOptions::note_given(const std::string& key) {
+    if (key == "jitter" || key == "rays") rays_given_ = true;
 }
 
 bool ExperimentOptions::any_given() const {
@@ -246,6 +252,7 @@ void ExperimentOptions::apply_config(Experiment& experiment, const std::string& 
         const std::string where = fmt::format("{}:{}", path, setting.line);
         CLI::Option* option = app_->get_option_no_throw("--" + setting.key);
         if (setting.key == "fresnel") fresnel_in_config_ = true;
+        note_given(setting.key);
         if (find(setting.key)) {
             try {
                 io::apply_setting(experiment, setting.key, setting.value);

@@ -76,7 +76,7 @@ class SimulateVerb {
     }
 
     int run() {
-        const Experiment experiment = experiment_.read();
+        Experiment experiment = experiment_.read();
         check(experiment);
         Run run(threads_.threads());
         const Talk say(quiet_, json_);
@@ -84,6 +84,7 @@ class SimulateVerb {
         ProgressBar progress(run, quiet_);
 
         const Heightfield surface = io::load_surface(experiment.surface, run);
+        if (!experiment_.rays_given()) experiment.run.jitter = default_jitter(surface.cell_count());
         MeasureListener listener;
         listener.begun = [&](const Measurement& head) {
             progress.clear();

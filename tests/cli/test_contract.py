@@ -153,6 +153,14 @@ class Simulate(ProgramTest):
                   for layer in info["layers"]]
         self.assertEqual(sorted(angles), [(0, 10), (0, 20), (45, 10), (45, 20)])
 
+    def test_number_of_rays(self):
+        few = ("simulate", "--surface", "flat", "--size", 16, "--theta", 0, "--resolution", 8)
+        with open("run.txt", "w", encoding="utf-8") as file:
+            file.write("jitter = 2\n")
+        for options, jitter in ((), 16), (("--jitter", 3), 3), (("--config", "run.txt"), 2):
+            layer, = self.json_of(*few, *options)["layers"]
+            self.assertEqual(layer["launched"], jitter * 16 * 16)
+
     def test_finite_patch_shows_edge_loss(self):
         text = self.passes("simulate", "--surface", "thesis", *SMALL, "--boundary", "finite")
         self.assertIn("edge loss", text)

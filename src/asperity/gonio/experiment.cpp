@@ -5,6 +5,7 @@
 #include <asperity/core/error.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace asperity {
@@ -54,6 +55,11 @@ void validate(const RunSettings& s) {
 }
 
 }  // namespace
+
+double default_jitter(std::uint64_t cells) {
+    constexpr double kEnoughRays = 1 << 26;
+    return std::clamp(kEnoughRays / static_cast<double>(cells), 1.0, RunSettings{}.jitter);
+}
 
 void validate(const Experiment& experiment) {
     validate(experiment.illumination);

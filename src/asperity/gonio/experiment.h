@@ -41,9 +41,7 @@ enum class LaunchPattern {
 };
 
 struct RunSettings {
-    /// Camera Jitter J: launch points per surface cell and layer. By default 128 a cell of the
-    /// default detector on a surface of the default size: a tenth of noise in a cell, all cells
-    /// alike.
+    /// Camera Jitter J: launch points per surface cell and layer; see default_jitter().
     double jitter = 16;
     std::uint64_t rays = 0;      ///< per layer; 0: jitter x cells
     double until = 0;            ///< relative error of the albedo to reach, 0: none. See measure()
@@ -54,6 +52,12 @@ struct RunSettings {
     int batches = 16;  ///< independent batches a layer, >= 2, from which errors are estimated
     std::uint64_t seed = 1;
 };
+
+/// Launch points per cell of a surface of so many where nobody asks for another number. 16 on small
+/// ones: on one of the default size that makes 128 a cell of the default detector, a tenth of noise
+/// if all are alike. On more than 2^22 cells fewer, so that a layer has no more than 2^26 rays, or
+/// one a cell.
+double default_jitter(std::uint64_t cells);
 
 /// One experiment: all that decides the numbers of a Measurement.
 struct Experiment {

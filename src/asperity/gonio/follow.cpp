@@ -163,8 +163,8 @@ void Follower::launch_each(const Scene& scene, const LaunchBatch& batch, std::ui
     for (std::uint64_t k = begin; k < end; ++k) {
         const Launch start = batch.launch(k);
         if (scene.relative_azimuth) {
-            cos_phi_[rays_.size()] = static_cast<float>(std::cos(start.phi_i));
-            sin_phi_[rays_.size()] = static_cast<float>(std::sin(start.phi_i));
+            cos_phi_[rays_.size()] = static_cast<float>(start.cos_phi_i);
+            sin_phi_[rays_.size()] = static_cast<float>(start.sin_phi_i);
         }
         rays_.push_back(start.ray);
     }

@@ -86,7 +86,11 @@ LaunchBatch::LaunchBatch(const Heightfield& surface, double height, const Incide
       first_(std::uint64_t{index} << kBatchShift),
       cells_x_(static_cast<std::uint32_t>(surface.cells_x())),
       cells_y_(static_cast<std::uint32_t>(surface.cells_y())),
-      height_(height) {
+      height_(height),
+      sin_theta_(std::sin(incidence.theta)),
+      cos_theta_(std::cos(incidence.theta)),
+      sin_phi_(std::sin(incidence.phi)),
+      cos_phi_(std::cos(incidence.phi)) {
     const auto shift = random_.bits64(first_, kShift);
     shift_ = {shift[0], shift[1]};
     if (pattern == LaunchPattern::LowDiscrepancy) {
@@ -215,9 +219,15 @@ Launch LaunchBatch::launch(std::uint64_t k) const {
         l.ray.j = split(p.y, cells_y_, l.ray.v);
     }
     l.ray.z = height_;
-    l.phi_i =
-        incidence_.isotropic ? 2 * kPi * random_.uniform2(first_ + k, kAzimuth)[0] : incidence_.phi;
-    l.ray.direction = -from_spherical(incidence_.theta, l.phi_i);
+    l.phi_i = incidence_.phi;
+    l.sin_phi_i = sin_phi_;
+    l.cos_phi_i = cos_phi_;
+    if (incidence_.isotropic) {
+        l.phi_i = 2 * kPi * random_.uniform2(first_ + k, kAzimuth)[0];
+        l.sin_phi_i = std::sin(l.phi_i);
+        l.cos_phi_i = std::cos(l.phi_i);
+    }
+    l.ray.direction = -Vec3{sin_theta_ * l.cos_phi_i, sin_theta_ * l.sin_phi_i, cos_theta_};
     return l;
 }
 

@@ -25,7 +25,7 @@ std::vector<Incidence> incidences(const IlluminationSettings& settings);
 /// A ray at the start of its path and the azimuth its light came from.
 struct Launch {
     Ray ray;
-    double phi_i = 0;
+    double phi_i = 0, cos_phi_i = 1, sin_phi_i = 0;
 };
 
 /// Neighbouring launch points of a lattice: the same place (u, v) of the cells (i, j), (i + 1, j)
@@ -97,6 +97,7 @@ class LaunchBatch {
     std::uint32_t first_cell_ = 0;
     std::uint32_t cells_x_, cells_y_;
     double height_;
+    double sin_theta_, cos_theta_, sin_phi_, cos_phi_;  ///< of the incidence
     // Of lines
     std::uint64_t passes_ = 0, stripes_of_pass_ = 0, lines_of_pass_ = 0;
     /// Of a ray, in units of 2^-64, that the lines before the first one have left over.

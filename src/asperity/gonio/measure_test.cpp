@@ -19,6 +19,16 @@ using test::measured;
 using test::noise;
 using test::small_experiment;
 
+TEST(Experiment, LargeSurfacesNeedFewerRaysPerCell) {
+    const auto square = [](std::uint64_t side) { return side * side; };
+    EXPECT_EQ(default_jitter(square(2)), 16);
+    EXPECT_EQ(default_jitter(square(512)), 16);
+    EXPECT_EQ(default_jitter(square(2048)), 16);
+    EXPECT_EQ(default_jitter(square(4096)), 4);
+    EXPECT_EQ(default_jitter(square(32768)), 1);
+    EXPECT_EQ(RunSettings{}.jitter, default_jitter(square(512)));
+}
+
 TEST(Measure, SameBitsForAnyNumberOfThreads) {
     const Heightfield s = noise(64, 3);
     for (const LaunchPattern launch :
