@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,6 +39,7 @@ class AtomicFile {
 
   private:
     void open_temporary();
+    void start_writing_back();
     [[noreturn]] void fail(const char* what) const;
     void close_and_remove() noexcept;
 
@@ -46,6 +48,8 @@ class AtomicFile {
     std::string temporary_;  ///< what is being written; target_ itself when `direct_`
     int descriptor_ = -1;
     bool direct_ = false;
+    std::int64_t written_ = 0;  ///< bytes, by write()
+    std::int64_t started_ = 0;  ///< of them on their way to the disk
 };
 
 }  // namespace asperity::io
