@@ -138,9 +138,9 @@ class LayerSums {
         double relative() const { return mean > 0 ? error / mean : 0.0; }
     };
     Estimate estimate(const Spread& spread) const;
-    /// Of a cell and channel, with the counted rays' share of it, `energy` each; `of_counted` is
-    /// the excess of their number.
-    Estimate estimate(std::size_t cell, std::size_t channel, std::uint64_t energy,
+    /// Of place k of the spreads, with the sum of its energies, and with the counted rays' share of
+    /// it, `each` of them; `of_counted` is the excess of their number.
+    Estimate estimate(std::size_t k, std::uint64_t sum, std::uint64_t each,
                       double of_counted) const;
     /// From a sum over the K batches and its excess K sum e^2 - (sum e)^2.
     Estimate estimate(double sum, double excess) const;

@@ -111,8 +111,8 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
     if (!direct_ && written_ - started_ >= kStartBytes) start_writing_back();
 }
 
-/// Lets the disk begin with what is there, so that commit() has less to wait for. A hint: whether
-/// it helps shows in sync_descriptor().
+/// Lets the disk begin with what is there, so that commit() has less to wait for. A hint: what goes
+/// wrong shows when the file is synced.
 void AtomicFile::start_writing_back() {
 #ifdef SYNC_FILE_RANGE_WRITE
     ::sync_file_range(descriptor_, started_, written_ - started_, SYNC_FILE_RANGE_WRITE);
