@@ -227,6 +227,7 @@ Launch LaunchBatch::launch(std::uint64_t k) const {
         l.sin_phi_i = std::sin(l.phi_i);
         l.cos_phi_i = std::cos(l.phi_i);
     }
+    // As from_spherical, but for what is the same for all rays
     l.ray.direction = -Vec3{sin_theta_ * l.cos_phi_i, sin_theta_ * l.sin_phi_i, cos_theta_};
     return l;
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/tracing/wide_grid.h>
 
-#include <asperity/tracing/wide_kernels.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -77,7 +75,6 @@ WideGrid::WideGrid(const PaddedHeights& h, const Horizon& free)
     const double range = double{h.max_height()} - double{h.min_height()};
     horizon_pays = share_above(h, free) > 0.1;
     leaps_pay = roughness_of_slopes(h) < 1;
-    gathers_pay = asperity::gathers_pay();
     steepest = static_cast<float>(1.0001 * range * std::hypot(1 / h.dx(), 1 / h.dy()));
     // A path that leaves the patch must still be near it, where the lanes can tell
     longest_leap = periodic ? 0.5f * static_cast<float>(std::min(cells_x, cells_y)) -

@@ -25,10 +25,10 @@ struct WideGrid {
     float steepest;               ///< no facet is steeper: whoever climbs more steeply escapes
     const std::uint8_t* horizon;  ///< the 16 bytes of the middle cell's block
     int horizon_pitch, pool_shift;
-    bool horizon_pays;   ///< enough paths are free by their facet's horizon to look at it
-    bool leaps_pay;      ///< the surface is smooth enough for paths to leap
-    bool gathers_pay;    ///< as gathers_pay()
-    float longest_leap;  ///< cells a path may leap over, so that one wrap brings it home
+    bool horizon_pays;         ///< enough paths are free by their facet's horizon to look at it
+    bool leaps_pay;            ///< the surface is smooth enough for paths to leap
+    bool gathers_pay = false;  ///< as gathers_pay(), which is asked by the tracer
+    float longest_leap;        ///< cells a path may leap over, so that one wrap brings it home
 };
 
 }  // namespace asperity

@@ -71,7 +71,7 @@ HWY_INLINE void pack_free(const GroundT& ground, const FacetPoints& points,
 template <class GroundT>
 void part_free_on(const GroundT& ground, FacetPoints& points, Directions& directions,
                   Escapes& escapes) {
-    // First all looks: with the packing in between each would wait for the one before
+    // First all looks, then all packing: short loops
     constexpr std::size_t kBytes = (kLanes + 7) / 8;
     std::uint8_t free_bits[kWave / kLanes * kBytes + 8] = {};
     for (std::size_t k = 0; k < points.count; k += kLanes) {

@@ -27,7 +27,9 @@ WideTracer::WideTracer(const Heightfield& surface, Run& run)
       surface_cells_y_(surface.cells_y()),
       heights_(surface, run),
       horizon_(heights_, run),
-      grid_(heights_, horizon_) {}
+      grid_(heights_, horizon_) {
+    grid_.gathers_pay = gathers_pay();
+}
 
 std::size_t WideTracer::memory_bytes() const {
     return heights_.memory_bytes() + horizon_.memory_bytes();
