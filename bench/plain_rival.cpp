@@ -2,7 +2,7 @@
 #include "clocks.h"
 #include "rival.h"
 
-#include <asperity/tracing/tracer.h>
+#include <asperity/tracing/engines/plain/tracer.h>
 
 #include <algorithm>
 #include <span>

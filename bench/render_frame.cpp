@@ -5,7 +5,7 @@
 #include "render_tasks.h"
 #include "task_options.h"
 
-#include <asperity/brdf/spec.h>
+#include <asperity/bsdf/spec.h>
 
 #include <fmt/format.h>
 

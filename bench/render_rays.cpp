@@ -7,7 +7,7 @@
 #include "render_tasks.h"
 #include "task_options.h"
 
-#include <asperity/brdf/lambert.h>
+#include <asperity/bsdf/models/lambert.h>
 #include <asperity/render/shading.h>
 
 #include <embree3/rtcore.h>

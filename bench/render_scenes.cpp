@@ -4,9 +4,9 @@
 #include "clocks.h"
 #include "surfaces.h"
 
-#include <asperity/brdf/tabulated.h>
 #include <asperity/gonio/measure.h>
-#include <asperity/render/baked_brdf.h>
+#include <asperity/measured/baked_brdf.h>
+#include <asperity/measured/tabulated.h>
 #include <asperity/render/builtin_models.h>
 #include <asperity/render/sky.h>
 #include <asperity/surface/make_surface.h>
@@ -31,7 +31,7 @@ ModelScene RenderBench::scene(Material material, bool sky) const {
     return scene;
 }
 
-std::shared_ptr<const Brdf> measured_brdf() {
+std::shared_ptr<const Bsdf> measured_brdf() {
     Run run;
     Experiment e;
     e.illumination.isotropic = true;
@@ -42,7 +42,7 @@ std::shared_ptr<const Brdf> measured_brdf() {
     return make_tabulated_brdf(measure(surface, e, run));
 }
 
-std::shared_ptr<const Brdf> simulated_brdf(const Brdf& measured) {
+std::shared_ptr<const Bsdf> simulated_brdf(const Bsdf& measured) {
     Run run;
     return bake_brdf(measured, run);
 }

@@ -22,9 +22,9 @@ struct RenderBench {
 inline constexpr PointLightSettings kBenchLamp{};
 
 /// A table of a Gaussian surface, alpha 0.424, as `asperity run` makes it: the simulated BRDF.
-std::shared_ptr<const Brdf> measured_brdf();
+std::shared_ptr<const Bsdf> measured_brdf();
 /// The same, as the renderer wears it.
-std::shared_ptr<const Brdf> simulated_brdf(const Brdf& measured);
+std::shared_ptr<const Bsdf> simulated_brdf(const Bsdf& measured);
 
 /// Processor time of rendering `passes` samples per pixel on the calling thread [s].
 double frame_seconds(const ModelScene& scene, const Camera& camera, const RenderSettings& settings,

@@ -5,8 +5,8 @@
 #include "render_scenes.h"
 #include "render_tasks.h"
 
-#include <asperity/brdf/lambert.h>
-#include <asperity/brdf/spec.h>
+#include <asperity/bsdf/models/lambert.h>
+#include <asperity/bsdf/spec.h>
 #include <asperity/core/random.h>
 
 #include <fmt/format.h>
@@ -56,8 +56,8 @@ Report run() {
         "Nanoseconds a call, one thread, directions spread by a cosine\n"
         "{:<26}{:>8}{:>14}{:>8}\n",
         "BRDF", "eval", "eval and pdf", "sample");
-    const std::shared_ptr<const Brdf> measured = measured_brdf();
-    const std::vector<std::pair<std::string, std::shared_ptr<const Brdf>>> all = {
+    const std::shared_ptr<const Bsdf> measured = measured_brdf();
+    const std::vector<std::pair<std::string, std::shared_ptr<const Bsdf>>> all = {
         {"lambert", parse_brdf_spec("lambert:albedo=0.5")},
         {"ggx 0.42", parse_brdf_spec("ggx:alpha=0.42")},
         {"beckmann 0.42", parse_brdf_spec("beckmann:alpha=0.42")},

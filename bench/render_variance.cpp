@@ -3,7 +3,7 @@
 #include "render_scenes.h"
 #include "render_tasks.h"
 
-#include <asperity/brdf/spec.h>
+#include <asperity/bsdf/spec.h>
 #include <asperity/render/sky.h>
 
 #include <fmt/format.h>
@@ -58,7 +58,7 @@ Report run(const Options& options) {
     sky.sun_diameter_deg = options.sun_diameter_deg;
     const RenderBench bench("sphere");
     const auto simulated = simulated_brdf(*measured_brdf());
-    const std::vector<std::pair<std::string, std::shared_ptr<const Brdf>>> all = {
+    const std::vector<std::pair<std::string, std::shared_ptr<const Bsdf>>> all = {
         {"ggx 0.02", parse_brdf_spec("ggx:alpha=0.02")},
         {"ggx 0.1", parse_brdf_spec("ggx:alpha=0.1")},
         {"ggx 0.3", parse_brdf_spec("ggx:alpha=0.3")},

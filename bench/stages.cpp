@@ -8,8 +8,8 @@
 #include "surfaces.h"
 #include "task_options.h"
 
-#include <asperity/io/result_file.h>
-#include <asperity/io/surface_files.h>
+#include <asperity/formats/heights/surface_files.h>
+#include <asperity/formats/results/result_file.h>
 #include <asperity/surface/statistics.h>
 
 #include <fmt/format.h>

@@ -3,8 +3,8 @@
 #include "run_check.h"
 
 #include <asperity/core/error.h>
-#include <asperity/io/model_reader.h>
-#include <asperity/io/model_writer.h>
+#include <asperity/formats/models/model_reader.h>
+#include <asperity/formats/models/model_writer.h>
 #include <asperity/render/builtin_models.h>
 
 #include <fmt/format.h>

@@ -4,8 +4,8 @@
 #include "run_check.h"
 
 #include <asperity/core/energy.h>
+#include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/measure.h>
-#include <asperity/io/result_file.h>
 #include <asperity/surface/make_surface.h>
 #include <asperity/surface/statistics.h>
 

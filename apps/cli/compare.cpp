@@ -8,13 +8,13 @@
 #include "table.h"
 #include "verbs.h"
 
-#include <asperity/brdf/compare.h>
-#include <asperity/brdf/spec.h>
+#include <asperity/bsdf/spec.h>
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
 #include <asperity/core/run.h>
-#include <asperity/io/image_reader.h>
-#include <asperity/io/result_file.h>
+#include <asperity/formats/images/image_reader.h>
+#include <asperity/formats/results/result_file.h>
+#include <asperity/measured/compare.h>
 #include <asperity/render/film.h>
 
 #include <fmt/format.h>
@@ -46,7 +46,7 @@ constexpr const char* kClosing =
 
 /// One side of a comparison.
 struct Side {
-    std::unique_ptr<Brdf> model;               ///< set when the side is a model
+    std::unique_ptr<Bsdf> model;               ///< set when the side is a model
     std::unique_ptr<Measurement> measurement;  ///< set when it is a file
 };
 

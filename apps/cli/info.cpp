@@ -8,8 +8,8 @@
 #include "verbs.h"
 
 #include <asperity/core/error.h>
-#include <asperity/io/experiment_text.h>
-#include <asperity/io/result_file.h>
+#include <asperity/formats/results/experiment_text.h>
+#include <asperity/formats/results/result_file.h>
 
 #include <fmt/format.h>
 

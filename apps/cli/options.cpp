@@ -4,7 +4,7 @@
 #include "suggest.h"
 
 #include <asperity/core/error.h>
-#include <asperity/io/experiment_text.h>
+#include <asperity/formats/results/experiment_text.h>
 #include <asperity/optics/fresnel.h>
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #include "render_lights.h"
 
 #include <asperity/core/error.h>
-#include <asperity/io/image_reader.h>
+#include <asperity/formats/images/image_reader.h>
 #include <asperity/render/environment_map.h>
 #include <asperity/render/sky.h>
 

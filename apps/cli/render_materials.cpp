@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_materials.h"
 
-#include <asperity/brdf/spec.h>
-#include <asperity/brdf/tabulated.h>
+#include <asperity/bsdf/spec.h>
 #include <asperity/core/error.h>
-#include <asperity/io/experiment_text.h>
-#include <asperity/io/result_file.h>
-#include <asperity/render/baked_brdf.h>
+#include <asperity/formats/results/experiment_text.h>
+#include <asperity/formats/results/result_file.h>
+#include <asperity/measured/baked_brdf.h>
+#include <asperity/measured/tabulated.h>
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMostBrdfs = 2;  ///< left and right of the split
 
-std::shared_ptr<const Brdf> load_brdf(const std::string& text, Run& run, io::Provenance& origin) {
+std::shared_ptr<const Bsdf> load_brdf(const std::string& text, Run& run, io::Provenance& origin) {
     if (is_brdf_spec(text)) return parse_brdf_spec(text);
     const Measurement m = io::load_measurement(text);
     if (m.channels() != 1 && m.channels() != 3) {

@@ -4,7 +4,7 @@
 #include "options.h"
 
 #include <asperity/core/error.h>
-#include <asperity/io/model_reader.h>
+#include <asperity/formats/models/model_reader.h>
 #include <asperity/render/builtin_models.h>
 #include <asperity/render/camera_controller.h>
 
@@ -104,11 +104,11 @@ std::string first_name(const char* names) {
 std::vector<double> read_numbers(const io::SettingValue& value, std::string_view text,
                                  char separator, const io::Range& range) {
     std::vector<double> numbers;
-    for (const std::string_view part : io::split(text, separator)) {
-        const auto number = io::parse_double(part);
-        if (!number) value.refuse(io::in_quotes(part) + " is not a number");
+    for (const std::string_view part : split(text, separator)) {
+        const auto number = parse_double(part);
+        if (!number) value.refuse(in_quotes(part) + " is not a number");
         if (*number < range.low || *number > range.high)
-            value.refuse(io::in_quotes(part) + " " + range.rule);
+            value.refuse(in_quotes(part) + " " + range.rule);
         numbers.push_back(*number);
     }
     return numbers;
@@ -117,7 +117,7 @@ std::vector<double> read_numbers(const io::SettingValue& value, std::string_view
 Rgb read_colour(const io::SettingValue& value, std::string_view text, const io::Range& range) {
     const std::vector<double> numbers = read_numbers(value, text, '/', range);
     if (numbers.size() == 1) return {numbers[0], numbers[0], numbers[0]};
-    if (numbers.size() != 3) value.refuse(io::in_quotes(text) + " is neither one number nor three");
+    if (numbers.size() != 3) value.refuse(in_quotes(text) + " is neither one number nor three");
     return {numbers[0], numbers[1], numbers[2]};
 }
 
@@ -172,8 +172,8 @@ Rgb RenderOptions::colour(const std::string& name, const io::Range& range) const
 std::array<Rgb, 2> RenderOptions::two_colours(const std::string& name, const io::Range& range,
                                               Rgb otherwise) const {
     const io::SettingValue found = value(name);
-    const auto parts = io::split(found.text(), ',');
-    if (parts.size() > 2) found.refuse(io::in_quotes(found.text()) + " is more than two colours");
+    const auto parts = split(found.text(), ',');
+    if (parts.size() > 2) found.refuse(in_quotes(found.text()) + " is more than two colours");
     return {read_colour(found, parts[0], range),
             parts.size() > 1 ? read_colour(found, parts[1], range) : otherwise};
 }
@@ -182,14 +182,14 @@ std::array<double, 2> RenderOptions::two_numbers(const std::string& name, const 
                                                  double otherwise) const {
     const io::SettingValue found = value(name);
     const std::vector<double> numbers = read_numbers(found, found.text(), ',', range);
-    if (numbers.size() > 2) found.refuse(io::in_quotes(found.text()) + " is more than two numbers");
+    if (numbers.size() > 2) found.refuse(in_quotes(found.text()) + " is more than two numbers");
     return {numbers[0], numbers.size() > 1 ? numbers[1] : otherwise};
 }
 
 Vec3 RenderOptions::vector(const std::string& name) const {
     const io::SettingValue found = value(name);
     const std::vector<double> numbers = read_numbers(found, found.text(), ',', io::kAnyNumber);
-    if (numbers.size() != 3) found.refuse(io::in_quotes(found.text()) + " is not X,Y,Z");
+    if (numbers.size() != 3) found.refuse(in_quotes(found.text()) + " is not X,Y,Z");
     return {numbers[0], numbers[1], numbers[2]};
 }
 

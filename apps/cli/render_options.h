@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <asperity/io/render_writer.h>
-#include <asperity/io/setting_value.h>
+#include <asperity/formats/images/render_writer.h>
+#include <asperity/formats/results/setting_value.h>
 #include <asperity/render/camera.h>
 #include <asperity/render/mesh.h>
 #include <asperity/render/render_settings.h>

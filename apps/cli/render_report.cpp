@@ -137,7 +137,7 @@ Json to_json(const Picture& p) {
 
 io::Provenance outcome_provenance(const Picture& p) {
     io::Provenance told = {{"version", kVersion}, {"samples", std::to_string(p.outcome.samples)}};
-    if (p.outcome.samples > 1) told.emplace_back("noise", io::shortest(p.outcome.noise));
+    if (p.outcome.samples > 1) told.emplace_back("noise", shortest(p.outcome.noise));
     if (p.outcome.stopped) told.emplace_back("stopped", "before it was as asked");
     return told;
 }

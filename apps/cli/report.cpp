@@ -6,7 +6,7 @@
 
 #include <asperity/core/directions.h>
 #include <asperity/core/energy.h>
-#include <asperity/io/experiment_text.h>
+#include <asperity/formats/results/experiment_text.h>
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <asperity/brdf/compare.h>
 #include <asperity/gonio/measurement.h>
+#include <asperity/measured/compare.h>
 
 #include <optional>
 #include <string>

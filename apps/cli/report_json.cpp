@@ -6,8 +6,8 @@
 
 #include <asperity/core/directions.h>
 #include <asperity/core/energy.h>
-#include <asperity/io/experiment_text.h>
-#include <asperity/io/result_file.h>
+#include <asperity/formats/results/experiment_text.h>
+#include <asperity/formats/results/result_file.h>
 
 namespace asperity::cli {
 

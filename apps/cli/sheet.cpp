@@ -8,10 +8,10 @@
 #include "verbs.h"
 
 #include <asperity/core/error.h>
-#include <asperity/io/canvas.h>
-#include <asperity/io/image_reader.h>
-#include <asperity/io/png_writer.h>
-#include <asperity/io/stroke_font.h>
+#include <asperity/formats/images/image_reader.h>
+#include <asperity/pictures/canvas.h>
+#include <asperity/pictures/png_writer.h>
+#include <asperity/pictures/stroke_font.h>
 
 #include <fmt/format.h>
 
@@ -55,7 +55,7 @@ std::vector<std::string> words_of(const CLI::Option* option) {
     std::vector<std::string> words;
     if (option->count() == 0) return words;
     const std::string text = text_of(option);
-    for (const std::string_view word : io::split(text, ',')) words.emplace_back(word);
+    for (const std::string_view word : split(text, ',')) words.emplace_back(word);
     return words;
 }
 

@@ -10,13 +10,13 @@
 #include "stop.h"
 #include "verbs.h"
 
-#include <asperity/brdf/compare.h>
-#include <asperity/brdf/spec.h>
+#include <asperity/bsdf/spec.h>
 #include <asperity/core/error.h>
+#include <asperity/formats/heights/surface_files.h>
+#include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/launch.h>
 #include <asperity/gonio/measure.h>
-#include <asperity/io/result_file.h>
-#include <asperity/io/surface_files.h>
+#include <asperity/measured/compare.h>
 #include <asperity/optics/fresnel.h>
 
 #include <fmt/format.h>

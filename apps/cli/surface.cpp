@@ -11,8 +11,8 @@
 #include "verbs.h"
 
 #include <asperity/core/error.h>
-#include <asperity/io/pictures.h>
-#include <asperity/io/surface_files.h>
+#include <asperity/formats/heights/surface_files.h>
+#include <asperity/pictures/pictures.h>
 
 #include <fmt/format.h>
 

@@ -2,9 +2,9 @@
 // Model files with every byte damaged, cut at every length, with stretches doubled, removed and
 // exchanged: each must be refused by an Error or give a clean model.
 #include <asperity/core/random.h>
-#include <asperity/io/model_reader.h>
-#include <asperity/io/model_test_files.h>
-#include <asperity/io/test_files.h>
+#include <asperity/formats/models/model_reader.h>
+#include <asperity/formats/models/model_test_files.h>
+#include <asperity/formats/test_files.h>
 #include <asperity/render/mesh.h>
 #include <gtest/gtest.h>
 

@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads the #include lines of a source tree and fails on one that runs against the data.
 
-    core <- optics, surface <- tracing <- gonio <- brdf <- render <- apps
+    core <- optics, surface <- tracing <- gonio <- measured <- formats, pictures <- apps
+    core <- optics, surface <- bsdf <- measured, render
 
-A folder of src/asperity includes only itself and what MAY_SEE names. io sees the data types of the
-others, and none of them sees io. render does not see gonio: where a BRDF came from must not matter.
+A room of src/asperity, a folder or the folder of a kind of format, includes only itself and what
+MAY_SEE names. Formats see the data types of the others, and no room of data sees a format. render
+sees neither gonio nor tracing: where a BRDF came from must not matter.
 Programs see all of the library but no library of numerics: physics has no place in them.
 
 usage: check_layers.py ROOT        prints one line for each wrong include; exits 1 if there is one
@@ -21,9 +23,17 @@ MAY_SEE = {
     "surface": {"core"},
     "tracing": {"core", "optics", "surface"},
     "gonio": {"core", "optics", "surface", "tracing"},
-    "brdf": {"core", "optics", "surface", "tracing", "gonio"},
-    "render": {"core", "optics", "surface", "tracing", "brdf"},
-    "io": {"core", "optics", "surface", "tracing", "gonio", "brdf", "render"},
+    "bsdf": {"core", "optics", "surface"},
+    "measured": {"core", "optics", "surface", "tracing", "gonio", "bsdf"},
+    "render": {"core", "optics", "surface", "bsdf"},
+    "formats": {"core"},
+    "formats/exr": {"core", "formats"},
+    "formats/heights": {"core", "surface", "formats", "formats/exr"},
+    "formats/images": {"core", "render", "formats", "formats/exr"},
+    "formats/models": {"core", "render", "formats"},
+    "formats/results": {"core", "optics", "surface", "gonio", "formats"},
+    "formats/bsdfs": {"core", "gonio", "bsdf", "measured", "formats", "formats/exr"},
+    "pictures": {"core", "surface", "tracing", "gonio", "bsdf", "measured", "render", "formats"},
 }
 
 # First folder, or the whole name, of the headers that apps must leave to the library.
@@ -45,6 +55,14 @@ def sources(folder):
     return sorted(p for p in folder.rglob("*") if p.suffix in (".h", ".cpp"))
 
 
+def room(folders):
+    """The longest beginning of a path below src/asperity that MAY_SEE knows, or its first folder."""
+    for length in range(len(folders), 0, -1):
+        if "/".join(folders[:length]) in MAY_SEE:
+            return "/".join(folders[:length])
+    return "/".join(folders[:1])
+
+
 def wrong_in_library(module, delimiter, name):
     """Why a file of src/asperity/<module> must not include `name`; None if it may."""
     if delimiter == '"':
@@ -52,7 +70,7 @@ def wrong_in_library(module, delimiter, name):
     parts = name.split("/")
     if parts[0] != "asperity":
         return None
-    target = parts[1]
+    target = room(parts[1:-1])
     if target == module or target in MAY_SEE[module]:
         return None
     if target not in MAY_SEE:
@@ -71,16 +89,19 @@ def check(root):
     """Returns one line of complaint for each wrong include, and the number of files read."""
     complaints, read = [], 0
     library = root / "src" / "asperity"
-    for module in sorted(p.name for p in library.iterdir() if p.is_dir()):
-        if module not in MAY_SEE:
-            complaints.append(f"{library / module}: not in the list of folders, see {__file__}")
+    unknown = set()
+    for path in sources(library):
+        read += 1
+        module = room(path.relative_to(library).parts[:-1])
+        if module and module not in MAY_SEE:
+            unknown.add(module)
             continue
-        for path in sources(library / module):
-            read += 1
-            for number, delimiter, name in includes(path):
-                reason = wrong_in_library(module, delimiter, name)
-                if reason:
-                    complaints.append(f"{path}:{number}: {name} {reason}")
+        for number, delimiter, name in includes(path):
+            reason = wrong_in_library(module, delimiter, name) if module else None
+            if reason:
+                complaints.append(f"{path}:{number}: {name} {reason}")
+    for module in sorted(unknown):
+        complaints.append(f"{library / module}: not in the list of folders, see {__file__}")
     for path in sources(root / "apps"):
         read += 1
         for number, delimiter, name in includes(path):

@@ -14,9 +14,10 @@ class Layers(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
-        for module in ("core", "surface", "optics", "tracing", "gonio", "brdf", "render", "io"):
+        for module in ("core", "surface", "optics", "tracing", "gonio", "bsdf", "render", "formats",
+                       "formats/heights"):
             self.write(f"src/asperity/{module}/a.h", "#pragma once\n#include <vector>\n")
-        self.write("apps/cli/main.cpp", "#include <asperity/io/a.h>\n#include <CLI/CLI.hpp>\n")
+        self.write("apps/cli/main.cpp", "#include <asperity/formats/a.h>\n#include <CLI/CLI.hpp>\n")
 
     def write(self, name, text):
         path = self.root / name
@@ -32,27 +33,28 @@ class Layers(unittest.TestCase):
         self.write("src/asperity/gonio/b.cpp", "#include <asperity/gonio/a.h>\n"
                                                "#include <asperity/tracing/a.h>\n"
                                                "#include <asperity/core/a.h>\n")
-        self.write("src/asperity/io/b.cpp", "#include <asperity/brdf/a.h>\n#include <png.h>\n")
+        self.write("src/asperity/formats/heights/b.cpp", "#include <asperity/formats/a.h>\n"
+                                                         "#include <png.h>\n")
         complaints, read = check(self.root)
         self.assertEqual(complaints, [])
-        self.assertEqual(read, 8 + 1 + 2)
+        self.assertEqual(read, 9 + 1 + 2)
 
     def test_each_wrong_arrow_is_found(self):
         for module, target in (("core", "surface"), ("surface", "optics"), ("optics", "surface"),
-                               ("surface", "tracing"), ("tracing", "gonio"), ("gonio", "brdf"),
-                               ("brdf", "render"), ("render", "gonio"), ("gonio", "io"),
-                               ("render", "io"), ("core", "apps")):
+                               ("surface", "tracing"), ("tracing", "gonio"), ("gonio", "bsdf"),
+                               ("bsdf", "render"), ("render", "gonio"), ("gonio", "formats"),
+                               ("formats", "formats/heights"), ("render", "formats"), ("core", "apps")):
             with self.subTest(module=module, target=target):
                 name = f"src/asperity/{module}/wrong.cpp"
                 self.assertEqual(len(self.complaints_about(name, f"<asperity/{target}/a.h>")), 1)
                 (self.root / name).unlink()
 
     def test_spaces_do_not_hide_an_include(self):
-        self.write("src/asperity/core/b.h", "  #  include   <asperity/io/a.h>\n")
+        self.write("src/asperity/core/b.h", "  #  include   <asperity/formats/a.h>\n")
         self.assertEqual(len(check(self.root)[0]), 1)
 
     def test_relative_includes_are_found(self):
-        self.assertEqual(len(self.complaints_about("src/asperity/core/b.h", '"../io/a.h"')), 1)
+        self.assertEqual(len(self.complaints_about("src/asperity/core/b.h", '"../formats/a.h"')), 1)
 
     def test_numerics_in_a_program_are_found(self):
         self.assertEqual(len(self.complaints_about("apps/cli/b.cpp", "<Eigen/Dense>")), 1)

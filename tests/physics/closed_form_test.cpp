@@ -7,7 +7,7 @@
 // triangle 5e-6 below the sphere meets it 7e-5 and more beside the point that is computed.
 #include "sphere_picture.h"
 
-#include <asperity/brdf/spec.h>
+#include <asperity/bsdf/spec.h>
 #include <asperity/core/directions.h>
 
 #include <algorithm>

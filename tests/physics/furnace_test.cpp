@@ -5,11 +5,11 @@
 // seen at all.
 #include "sphere_picture.h"
 
-#include <asperity/brdf/spec.h>
-#include <asperity/brdf/tabulated.h>
+#include <asperity/bsdf/spec.h>
 #include <asperity/core/directions.h>
 #include <asperity/gonio/measure.h>
-#include <asperity/render/baked_brdf.h>
+#include <asperity/measured/baked_brdf.h>
+#include <asperity/measured/tabulated.h>
 #include <asperity/surface/make_surface.h>
 
 #include <array>

@@ -4,7 +4,7 @@
 // weighted by the balance heuristic. `render_bench --variance` prints their variances.
 #include "sphere_picture.h"
 
-#include <asperity/brdf/spec.h>
+#include <asperity/bsdf/spec.h>
 #include <asperity/render/sky.h>
 
 #include <fmt/format.h>

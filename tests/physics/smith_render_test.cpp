@@ -6,11 +6,11 @@
 // that Smith's single scattering loses: it makes the picture brighter, by what the table says.
 #include "sphere_picture.h"
 
-#include <asperity/brdf/spec.h>
-#include <asperity/brdf/tabulated.h>
+#include <asperity/bsdf/spec.h>
 #include <asperity/core/directions.h>
 #include <asperity/gonio/measure.h>
-#include <asperity/render/baked_brdf.h>
+#include <asperity/measured/baked_brdf.h>
+#include <asperity/measured/tabulated.h>
 #include <asperity/surface/make_surface.h>
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ Measurement measured(const Heightfield& surface, int bounces) {
     return measure(surface, e, run);
 }
 
-Image rendered(std::shared_ptr<const Brdf> brdf, std::unique_ptr<Light> light, std::uint32_t spp) {
+Image rendered(std::shared_ptr<const Bsdf> brdf, std::unique_ptr<Light> light, std::uint32_t spp) {
     RenderSettings settings = test::plain_picture(64, spp);
     settings.show_lights = false;
     const ModelScene scene = test::sphere_scene(Material(std::move(brdf)), {std::move(light)});
@@ -84,10 +84,10 @@ class SmithRender : public testing::Test {
         all_brdf_.reset();
     }
 
-    const std::shared_ptr<const Brdf> smith_ =
+    const std::shared_ptr<const Bsdf> smith_ =
         parse_brdf_spec(fmt::format("beckmann:alpha={}", kAlpha));
     static inline std::unique_ptr<Measurement> all_;
-    static inline std::shared_ptr<const Brdf> once_brdf_, all_brdf_;
+    static inline std::shared_ptr<const Bsdf> once_brdf_, all_brdf_;
 };
 
 TEST_F(SmithRender, UnderALamp) {
@@ -104,7 +104,7 @@ TEST_F(SmithRender, UnderALamp) {
     EXPECT_LT(once.relative, 0.04);
     EXPECT_LT(all.relative, 0.04);
     // Able to fail: a surface a quarter rougher is another picture
-    const std::shared_ptr<const Brdf> rougher =
+    const std::shared_ptr<const Bsdf> rougher =
         parse_brdf_spec(fmt::format("beckmann:alpha={}", 1.25 * kAlpha));
     const Image other = rendered(rougher, lamp(), 1);
     EXPECT_GT(compare(other, rendered(once_brdf_, lamp(), 1)).relative, 0.1);

@@ -4,10 +4,10 @@
 // those of an independent plain tracer on 2048^2 tiles, correlation length 16 (table "Gaussian
 // surfaces against Smith" of docs/validation.md); the theory is our analytic model, averaged over
 // the cells.
-#include <asperity/brdf/compare.h>
-#include <asperity/brdf/spec.h>
+#include <asperity/bsdf/spec.h>
 #include <asperity/core/directions.h>
 #include <asperity/gonio/measure.h>
+#include <asperity/measured/compare.h>
 #include <asperity/surface/make_surface.h>
 #include <fmt/format.h>
 

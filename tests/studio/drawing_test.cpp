@@ -4,9 +4,9 @@
 #include "model/document.h"
 
 #include <asperity/core/error.h>
+#include <asperity/formats/heights/surface_files.h>
+#include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/measure.h>
-#include <asperity/io/result_file.h>
-#include <asperity/io/surface_files.h>
 
 #include <QElapsedTimer>
 #include <QProcess>

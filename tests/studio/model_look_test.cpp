@@ -118,7 +118,7 @@ void ModelLookTest::normalize_factor_doubles_the_picture_exactly() {
     Bench bench;
     wear_simulated(bench, folder, 1);
     const Film once = paint(bench.scene);
-    const Brdf* baked = &bench.scene.stage().sight()->scene.material.brdf();
+    const Bsdf* baked = &bench.scene.stage().sight()->scene.material.brdf();
     QVERIFY(luminance(middle(once)) > 0);
 
     bench.set("normalize-factor", 2);

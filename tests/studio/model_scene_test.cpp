@@ -3,8 +3,8 @@
 #include "model_testing.h"
 
 #include <asperity/core/error.h>
-#include <asperity/io/image_reader.h>
-#include <asperity/io/model_reader.h>
+#include <asperity/formats/images/image_reader.h>
+#include <asperity/formats/models/model_reader.h>
 
 #include <QDropEvent>
 #include <QElapsedTimer>

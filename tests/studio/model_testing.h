@@ -7,8 +7,8 @@
 #include "view/model_scene.h"
 
 #include <asperity/core/run.h>
+#include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/measure.h>
-#include <asperity/io/result_file.h>
 #include <asperity/surface/make_surface.h>
 
 #include <QSignalSpy>

@@ -6,12 +6,12 @@
 #include "view/plot_canvas.h"
 #include "view/plot_hemisphere.h"
 
-#include <asperity/brdf/albedo_by_angle.h>
-#include <asperity/brdf/lobe_slice.h>
-#include <asperity/brdf/microfacet.h>
-#include <asperity/brdf/normal_profile.h>
+#include <asperity/bsdf/models/microfacet.h>
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
+#include <asperity/measured/albedo_by_angle.h>
+#include <asperity/measured/lobe_slice.h>
+#include <asperity/measured/normal_profile.h>
 
 #include <QCheckBox>
 #include <QComboBox>

@@ -5,8 +5,8 @@
 #include "model/settings_keys.h"
 
 #include <asperity/core/error.h>
-#include <asperity/io/experiment_keys.h>
-#include <asperity/io/experiment_text.h>
+#include <asperity/formats/results/experiment_keys.h>
+#include <asperity/formats/results/experiment_text.h>
 
 #include <QFile>
 #include <QSignalSpy>

@@ -3,7 +3,7 @@
 #include "model/workbench.h"
 
 #include <asperity/core/error.h>
-#include <asperity/io/surface_files.h>
+#include <asperity/formats/heights/surface_files.h>
 
 #include <QElapsedTimer>
 #include <QSignalSpy>

@@ -3,8 +3,8 @@
 
 #include "session_text.h"
 
-#include <asperity/io/atomic_file.h>
-#include <asperity/io/read_file.h>
+#include <asperity/formats/atomic_file.h>
+#include <asperity/formats/read_file.h>
 
 #include <QFile>
 

@@ -4,7 +4,7 @@
 #include <asperity/core/vec.h>
 #include <asperity/gonio/detector.h>
 #include <asperity/gonio/measurement.h>
-#include <asperity/io/layer_view.h>
+#include <asperity/pictures/layer_view.h>
 #include <asperity/render/camera.h>
 
 #include <array>

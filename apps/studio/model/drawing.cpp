@@ -4,8 +4,8 @@
 #include "background.h"
 
 #include <asperity/core/error.h>
+#include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/measure.h>
-#include <asperity/io/result_file.h>
 #include <asperity/optics/fresnel.h>
 
 #include <QFile>

@@ -3,7 +3,7 @@
 
 #include "background.h"
 
-#include <asperity/tracing/tracer.h>
+#include <asperity/tracing/engines/plain/tracer.h>
 
 #include <span>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loaded_model.h"
 
-#include <asperity/io/model_reader.h>
+#include <asperity/formats/models/model_reader.h>
 #include <asperity/render/builtin_models.h>
 
 #include <QStringList>

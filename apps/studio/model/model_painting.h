@@ -4,7 +4,7 @@
 #include "painting.h"
 #include "tone_table.h"
 
-#include <asperity/io/render_writer.h>
+#include <asperity/formats/images/render_writer.h>
 #include <asperity/render/camera.h>
 #include <asperity/render/renderer.h>
 #include <asperity/render/scene.h>

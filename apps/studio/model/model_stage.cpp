@@ -3,7 +3,7 @@
 
 #include "picture_provenance.h"
 
-#include <asperity/brdf/lambert.h>
+#include <asperity/bsdf/models/lambert.h>
 
 #include <QFileInfo>
 

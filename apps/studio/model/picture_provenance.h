@@ -4,7 +4,7 @@
 #include "settings.h"
 #include "worn_brdfs.h"
 
-#include <asperity/io/render_writer.h>
+#include <asperity/formats/images/render_writer.h>
 #include <asperity/render/camera.h>
 
 #include <string>

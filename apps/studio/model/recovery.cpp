@@ -4,9 +4,9 @@
 #include "session_text.h"
 
 #include <asperity/core/error.h>
-#include <asperity/io/atomic_file.h>
-#include <asperity/io/experiment_text.h>
-#include <asperity/io/read_file.h>
+#include <asperity/formats/atomic_file.h>
+#include <asperity/formats/read_file.h>
+#include <asperity/formats/results/experiment_text.h>
 
 #include <QCoreApplication>
 #include <QDir>

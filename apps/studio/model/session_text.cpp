@@ -4,7 +4,7 @@
 #include "settings_keys.h"
 
 #include <asperity/core/error.h>
-#include <asperity/io/experiment_text.h>
+#include <asperity/formats/results/experiment_text.h>
 
 #include <fmt/format.h>
 
@@ -45,8 +45,7 @@ StudioSettings session_from_text(std::string_view text, const std::string& name)
         if (!setting.section.empty() && setting.section != kSection) continue;
         const std::string place = fmt::format("{}:{}", name, setting.line);
         if (!seen.emplace(setting.section, setting.key).second)
-            throw Error(ErrorCode::InvalidInput, io::in_quotes(setting.key) + " is set twice",
-                        place);
+            throw Error(ErrorCode::InvalidInput, in_quotes(setting.key) + " is set twice", place);
         try {
             set(settings, setting);
         } catch (const Error& error) {

@@ -3,7 +3,7 @@
 
 #include <asperity/core/vec.h>
 #include <asperity/gonio/experiment.h>
-#include <asperity/io/pictures.h>
+#include <asperity/pictures/pictures.h>
 #include <asperity/render/rgb.h>
 #include <asperity/render/tonemap.h>
 

@@ -93,7 +93,7 @@ class Group {
     void number(const char* name, Field field, const io::Range& range) {
         add(
             name, [field, range](S& s, const V& v) { field(s) = v.number(range); },
-            [field](const S& s) { return io::shortest(field(s)); });
+            [field](const S& s) { return shortest(field(s)); });
     }
     template <typename Field, typename Enum, std::size_t N>
     void choice(const char* name, Field field, const io::Names<Enum, N>& names) {
@@ -138,7 +138,7 @@ class Group {
   private:
     static std::array<double, 3> three(const V& value, const io::Range& range) {
         const std::vector<double> list = value.list(range);
-        if (list.size() != 3) value.refuse(io::in_quotes(value.text()) + " is not three numbers");
+        if (list.size() != 3) value.refuse(in_quotes(value.text()) + " is not three numbers");
         return {list[0], list[1], list[2]};
     }
     template <typename Set, typename Get>

@@ -3,7 +3,7 @@
 
 #include "settings.h"
 
-#include <asperity/io/setting_value.h>
+#include <asperity/formats/results/setting_value.h>
 
 #include <functional>
 #include <span>

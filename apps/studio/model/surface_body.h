@@ -4,7 +4,7 @@
 #include "settings.h"
 #include "surface_frame.h"
 
-#include <asperity/render/heightfield_view.h>
+#include <asperity/pictures/heightfield_view.h>
 
 #include <array>
 #include <memory>

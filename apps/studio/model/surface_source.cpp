@@ -3,7 +3,7 @@
 
 #include "background.h"
 
-#include <asperity/io/surface_files.h>
+#include <asperity/formats/heights/surface_files.h>
 
 namespace asperity::studio {
 

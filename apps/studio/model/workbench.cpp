@@ -2,7 +2,7 @@
 #include "workbench.h"
 
 #include <asperity/core/error.h>
-#include <asperity/io/experiment_text.h>
+#include <asperity/formats/results/experiment_text.h>
 
 #include <vector>
 

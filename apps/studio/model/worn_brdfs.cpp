@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "worn_brdfs.h"
 
-#include <asperity/brdf/cook_torrance.h>
-#include <asperity/brdf/tabulated.h>
+#include <asperity/bsdf/models/cook_torrance.h>
 #include <asperity/core/error.h>
-#include <asperity/io/experiment_text.h>
-#include <asperity/io/result_file.h>
-#include <asperity/render/baked_brdf.h>
+#include <asperity/formats/results/experiment_text.h>
+#include <asperity/formats/results/result_file.h>
+#include <asperity/measured/baked_brdf.h>
+#include <asperity/measured/tabulated.h>
 
 #include <QFileInfo>
 

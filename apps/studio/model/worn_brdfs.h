@@ -5,7 +5,7 @@
 #include "drawing.h"
 #include "settings.h"
 
-#include <asperity/io/render_writer.h>
+#include <asperity/formats/images/render_writer.h>
 #include <asperity/render/material.h>
 
 #include <QDateTime>
@@ -58,7 +58,7 @@ class WornBrdfs : public QObject {
     };
     struct Simulated {
         Source source;
-        std::shared_ptr<const Brdf> brdf;
+        std::shared_ptr<const Bsdf> brdf;
         QString surface;
         io::Provenance origin;
     };

@@ -9,8 +9,9 @@
 #include "surface_scene.h"
 
 #include <asperity/core/error.h>
-#include <asperity/io/pictures.h>
-#include <asperity/io/result_file.h>
+#include <asperity/formats/bsdfs/layers_exr.h>
+#include <asperity/formats/results/result_file.h>
+#include <asperity/pictures/pictures.h>
 #include <asperity/render/builtin_models.h>
 
 #include <QCoreApplication>

@@ -6,8 +6,8 @@
 #include "split_handle.h"
 
 #include <asperity/core/error.h>
-#include <asperity/io/model_reader.h>
-#include <asperity/io/result_file.h>
+#include <asperity/formats/models/model_reader.h>
+#include <asperity/formats/results/result_file.h>
 
 #include <QDragEnterEvent>
 #include <QDropEvent>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <asperity/gonio/detector.h>
-#include <asperity/io/layer_view.h>
+#include <asperity/pictures/layer_view.h>
 
 #include <QImage>
 

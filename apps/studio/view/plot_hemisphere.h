@@ -6,7 +6,7 @@
 #include "plot_disc.h"
 
 #include <asperity/gonio/measurement.h>
-#include <asperity/io/layer_view.h>
+#include <asperity/pictures/layer_view.h>
 
 #include <QImage>
 

@@ -5,9 +5,9 @@
 #include "plot_hemisphere.h"
 #include "plot_polar.h"
 
-#include <asperity/brdf/albedo_by_angle.h>
-#include <asperity/brdf/lobe_slice.h>
 #include <asperity/core/directions.h>
+#include <asperity/measured/albedo_by_angle.h>
+#include <asperity/measured/lobe_slice.h>
 
 #include <algorithm>
 #include <array>

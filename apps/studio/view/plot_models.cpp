@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plot_models.h"
 
-#include <asperity/brdf/albedo_by_angle.h>
-#include <asperity/brdf/cook_torrance.h>
-#include <asperity/brdf/lobe_slice.h>
-#include <asperity/brdf/microfacet.h>
+#include <asperity/bsdf/models/cook_torrance.h>
+#include <asperity/bsdf/models/microfacet.h>
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
+#include <asperity/measured/albedo_by_angle.h>
+#include <asperity/measured/lobe_slice.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ PlotKind kind_of_curves(PlotKind kind) {
 
 /// A model and the channel of it to be shown.
 struct ShownModel {
-    std::unique_ptr<Brdf> brdf;
+    std::unique_ptr<Bsdf> brdf;
     int channel = -1;
 };
 

@@ -4,8 +4,8 @@
 #include "../model/background.h"
 #include "../model/settings.h"
 
-#include <asperity/brdf/normal_profile.h>
 #include <asperity/gonio/measurement.h>
+#include <asperity/measured/normal_profile.h>
 #include <asperity/surface/heightfield.h>
 
 #include <QObject>

@@ -6,7 +6,7 @@
 
 #include <asperity/core/directions.h>
 #include <asperity/gonio/launch.h>
-#include <asperity/io/colour_map.h>
+#include <asperity/pictures/colour_map.h>
 
 #include <QFontMetricsF>
 

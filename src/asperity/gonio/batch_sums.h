@@ -2,7 +2,7 @@
 #pragma once
 
 #include <asperity/gonio/measurement.h>
-#include <asperity/tracing/wide.h>
+#include <asperity/tracing/engines/wide/wide.h>
 
 #include <algorithm>
 #include <cstddef>

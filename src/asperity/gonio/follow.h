@@ -5,7 +5,7 @@
 #include <asperity/gonio/detector.h>
 #include <asperity/gonio/launch.h>
 #include <asperity/optics/fresnel.h>
-#include <asperity/tracing/wide_tracer.h>
+#include <asperity/tracing/engines/wide/wide_tracer.h>
 
 #include <cstdint>
 #include <vector>

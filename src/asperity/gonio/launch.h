@@ -4,8 +4,8 @@
 #include <asperity/core/random.h>
 #include <asperity/gonio/experiment.h>
 #include <asperity/surface/heightfield.h>
-#include <asperity/tracing/tracer.h>
-#include <asperity/tracing/wide_launch.h>
+#include <asperity/tracing/engines/plain/tracer.h>
+#include <asperity/tracing/engines/wide/wide_launch.h>
 
 #include <cstdint>
 
@@ -42,8 +42,9 @@ struct LaunchRow {
 ///
 /// The points of LowDiscrepancy form a lattice. Where parallel light comes in at an angle onto a
 /// periodic surface, it consists of lines along the light, a cell beside each other: rays of a line
-/// share their way (tracing/launch_line.h). Else it consists of rows of points a cell apart. Lines,
-/// or rows, are shifted against each other by the golden ratio of the distance of their points.
+/// share their way (tracing/engines/wide/launch_line.h). Else it consists of rows of points a cell
+/// apart. Lines, or rows, are shifted against each other by the golden ratio of the distance of
+/// their points.
 class LaunchBatch {
   public:
     /// `index` and `rays` of this batch; `stream` separates the layers of a run. Throws nothing.

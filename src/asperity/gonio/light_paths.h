@@ -3,7 +3,7 @@
 
 #include <asperity/core/run.h>
 #include <asperity/gonio/experiment.h>
-#include <asperity/tracing/tracer.h>
+#include <asperity/tracing/engines/plain/tracer.h>
 
 #include <cstddef>
 #include <cstdint>

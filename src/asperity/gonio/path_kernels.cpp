@@ -6,7 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include <asperity/tracing/ground-inl.h>
+#include <asperity/tracing/engines/wide/ground-inl.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace asperity::HWY_NAMESPACE {

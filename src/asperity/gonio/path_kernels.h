@@ -3,10 +3,10 @@
 
 #include <asperity/core/vec.h>
 #include <asperity/gonio/detector.h>
-#include <asperity/tracing/padded_heights.h>
-#include <asperity/tracing/wide.h>
-#include <asperity/tracing/wide_grid.h>
-#include <asperity/tracing/wide_launch.h>
+#include <asperity/tracing/engines/wide/padded_heights.h>
+#include <asperity/tracing/engines/wide/wide.h>
+#include <asperity/tracing/engines/wide/wide_grid.h>
+#include <asperity/tracing/engines/wide/wide_launch.h>
 
 namespace asperity {
 

@@ -3,7 +3,7 @@
 
 // Statistical tests of lights, for the tests of this folder.
 
-#include <asperity/brdf/chi_square.h>
+#include <asperity/bsdf/chi_square.h>
 #include <asperity/core/random.h>
 #include <asperity/render/environment_map.h>
 #include <asperity/render/light.h>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <asperity/brdf/lambert.h>
+#include <asperity/bsdf/models/lambert.h>
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
-#include <asperity/render/baked_brdf.h>
 #include <asperity/render/material.h>
 
 #include <fmt/format.h>
@@ -14,10 +13,10 @@ namespace asperity {
 
 namespace {
 
-/// Room for the channels of a Brdf, and their colour.
+/// Room for the channels of a Bsdf, and their colour.
 class Channels {
   public:
-    explicit Channels(const Brdf& brdf) : count_(static_cast<std::size_t>(brdf.channels())) {}
+    explicit Channels(const Bsdf& brdf) : count_(static_cast<std::size_t>(brdf.channels())) {}
 
     operator std::span<double>() { return {values_.data(), count_}; }
     Rgb colour() const {
@@ -35,7 +34,7 @@ bool is_share(double x) {
 }
 
 /// Part of the samples for the diffuse term: its part in the albedo, seen from 45 degrees.
-double diffuse_share(const Brdf& brdf, const MaterialSettings& settings) {
+double diffuse_share(const Bsdf& brdf, const MaterialSettings& settings) {
     const double diffuse = luminance(settings.albedo);
     if (diffuse == 0) return 0;
     if (settings.normalize_factor == 0) return 1;
@@ -46,7 +45,7 @@ double diffuse_share(const Brdf& brdf, const MaterialSettings& settings) {
 
 }  // namespace
 
-Material::Material(std::shared_ptr<const Brdf> brdf, const MaterialSettings& settings)
+Material::Material(std::shared_ptr<const Bsdf> brdf, const MaterialSettings& settings)
     : brdf_(std::move(brdf)), settings_(settings) {
     if (brdf_ == nullptr) throw Error(ErrorCode::Usage, "a material needs a BRDF", "brdf");
     if (brdf_->channels() != 1 && brdf_->channels() != 3)
@@ -61,7 +60,6 @@ Material::Material(std::shared_ptr<const Brdf> brdf, const MaterialSettings& set
     const Rgb a = settings.albedo;
     if (!is_share(a.r) || !is_share(a.g) || !is_share(a.b))
         throw Error(ErrorCode::Usage, "each part of an albedo lies within 0 .. 1", "albedo");
-    baked_ = dynamic_cast<const BakedBrdf*>(brdf_.get());
     diffuse_share_ = diffuse_share(*brdf_, settings_);
 }
 
@@ -85,12 +83,7 @@ Rgb Material::eval_pdf(Vec3 view, Vec3 light, double& pdf) const {
     pdf = 0;
     if (view.z <= 0 || light.z <= 0) return {};
     Channels f(*brdf_);
-    if (baked_ != nullptr) {
-        pdf = baked_->eval_pdf(view, light, f);
-    } else {
-        brdf_->eval(view, light, f);
-        pdf = brdf_->pdf(view, light);
-    }
+    pdf = brdf_->eval_pdf(view, light, f);
     pdf = diffuse_share_ * (light.z / kPi) + (1 - diffuse_share_) * pdf;
     return (1 / kPi) * settings_.albedo + settings_.normalize_factor * f.colour();
 }

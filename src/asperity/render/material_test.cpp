@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <asperity/brdf/chi_square.h>
-#include <asperity/brdf/lambert.h>
-#include <asperity/brdf/spec.h>
+#include <asperity/bsdf/chi_square.h>
+#include <asperity/bsdf/models/lambert.h>
+#include <asperity/bsdf/spec.h>
 #include <asperity/core/error.h>
 #include <asperity/render/material.h>
 
@@ -13,12 +13,12 @@
 namespace asperity {
 namespace {
 
-std::shared_ptr<const Brdf> brdf_of(const std::string& spec) {
+std::shared_ptr<const Bsdf> brdf_of(const std::string& spec) {
     return parse_brdf_spec(spec);
 }
 
-/// A Material as a Brdf, its red channel: what samplers are tested with.
-class MaterialAsBrdf final : public Brdf {
+/// A Material as a Bsdf, its red channel: what samplers are tested with.
+class MaterialAsBrdf final : public Bsdf {
   public:
     explicit MaterialAsBrdf(Material material) : material_(std::move(material)) {}
     int channels() const override { return 1; }
@@ -26,10 +26,10 @@ class MaterialAsBrdf final : public Brdf {
     void eval(Vec3 wi, Vec3 wo, std::span<double> f) const override {
         f[0] = material_.eval(wi, wo).r;
     }
-    std::optional<BrdfSample> sample(Vec3 wi, double u1, double u2) const override {
+    std::optional<BsdfSample> sample(Vec3 wi, double u1, double u2) const override {
         const auto drawn = material_.sample(wi, u1, u2);
         if (!drawn) return std::nullopt;
-        return BrdfSample{drawn->light, drawn->pdf};
+        return BsdfSample{drawn->light, drawn->pdf};
     }
     double pdf(Vec3 wi, Vec3 wo) const override {
         double density = 0;
@@ -62,13 +62,13 @@ TEST(Material, IsTheThesisSum) {
 
 TEST(Material, TakesViewForWi) {
     // f tells which way round it is asked: it is that of a table, exact for its wi alone
-    class OneWay final : public Brdf {
+    class OneWay final : public Bsdf {
         int channels() const override { return 1; }
         std::string name() const override { return "one-way"; }
         void eval(Vec3 wi, Vec3, std::span<double> f) const override { f[0] = wi.z; }
-        std::optional<BrdfSample> sample(Vec3, double u1, double u2) const override {
+        std::optional<BsdfSample> sample(Vec3, double u1, double u2) const override {
             const Vec3 wo = sample_cosine(u1, u2);
-            return BrdfSample{wo, wo.z / kPi};
+            return BsdfSample{wo, wo.z / kPi};
         }
         double pdf(Vec3, Vec3 wo) const override { return wo.z / kPi; }
     };
@@ -115,7 +115,7 @@ TEST(Material, NamesWhatIsNotAsByDefault) {
               ggx->name() + ", normalize factor 2, albedo 0.5/0.25/0");
 }
 
-std::string complaint(const std::shared_ptr<const Brdf>& brdf, const MaterialSettings& settings) {
+std::string complaint(const std::shared_ptr<const Bsdf>& brdf, const MaterialSettings& settings) {
     try {
         const Material material(brdf, settings);
     } catch (const Error& error) {

@@ -11,7 +11,7 @@
 // The world of a scene. Right-handed, y up; without a camera of his own a user looks along -z, x to
 // the right. Lengths have no unit; fit_to_unit_sphere brings models to one size. It is the thesis'
 // world, and the only one of the project that has y up: where a surface is shaded, directions
-// are turned into the frame of a Brdf, z the normal (shading.h).
+// are turned into the frame of a Bsdf, z the normal (shading.h).
 
 namespace asperity {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <asperity/brdf/lambert.h>
-#include <asperity/brdf/spec.h>
+#include <asperity/bsdf/models/lambert.h>
+#include <asperity/bsdf/spec.h>
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
 #include <asperity/render/builtin_models.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <asperity/brdf/chi_square.h>
+#include <asperity/bsdf/chi_square.h>
 #include <asperity/render/sampler.h>
 
 #include <gtest/gtest.h>

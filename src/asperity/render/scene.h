@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <asperity/brdf/lambert.h>
+#include <asperity/bsdf/models/lambert.h>
 #include <asperity/render/light.h>
 #include <asperity/render/material.h>
 #include <asperity/render/traced_model.h>

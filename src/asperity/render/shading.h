@@ -6,7 +6,7 @@
 
 namespace asperity {
 
-/// The frame in which a Brdf is asked: z the normal, x and y in the surface.
+/// The frame in which a Bsdf is asked: z the normal, x and y in the surface.
 struct ShadingFrame {
     Vec3 x, y, z;  ///< orthonormal, right-handed, in the world
 

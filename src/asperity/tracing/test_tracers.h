@@ -6,7 +6,7 @@
 #include <asperity/core/directions.h>
 #include <asperity/core/random.h>
 #include <asperity/surface/make_surface.h>
-#include <asperity/tracing/wide_tracer.h>
+#include <asperity/tracing/engines/wide/wide_tracer.h>
 
 #include <gtest/gtest.h>
 

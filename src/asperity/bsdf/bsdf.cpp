@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/bsdf/bsdf.h>
+#include <asperity/bsdf/lattice.h>
+
+#include <algorithm>
+#include <array>
+
+namespace asperity {
+
+void albedo_by_sampling(const Bsdf& brdf, Vec3 wi, FibonacciLattice lattice, std::span<double> a) {
+    std::fill(a.begin(), a.end(), 0.0);
+    std::array<double, kMaxBsdfChannels> values{};
+    const std::span<double> f = std::span(values).first(a.size());
+    for (int i = 0; i < lattice.points; ++i) {
+        const double u1 = (i + 0.5) / lattice.points;
+        const double u2 = (i * lattice.step % lattice.points + 0.5) / lattice.points;
+        const std::optional<BsdfSample> s = brdf.sample(wi, u1, u2);
+        if (!s) continue;
+        brdf.eval(wi, s->wo, f);
+        for (std::size_t c = 0; c < a.size(); ++c) a[c] += f[c] * s->wo.z / s->pdf;
+    }
+    for (double& value : a) value /= lattice.points;
+}
+
+void Bsdf::albedo(Vec3 wi, std::span<double> a) const {
+    albedo_by_sampling(*this, wi, kFineLattice, a);
+}
+
+}  // namespace asperity

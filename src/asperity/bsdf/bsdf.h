@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/core/vec.h>
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace asperity {
+
+/// Largest number of channels of a Bsdf.
+inline constexpr int kMaxBsdfChannels = 64;
+
+/// A direction drawn by Bsdf::sample and the density it was drawn with [1/sr].
+struct BsdfSample {
+    Vec3 wo;
+    double pdf = 0;
+};
+
+/// How a surface reflects: f(wi, wo) in 1/sr, never including a cosine.
+///
+/// wi and wo are unit vectors pointing away from the surface; wi is where the light comes from, z
+/// the normal. Directions at or below the horizon (z <= 0) give f = 0 and pdf = 0. Channels are
+/// as in OpticsSettings. All functions are const, thread-safe and free of allocation.
+class Bsdf {
+  public:
+    virtual ~Bsdf() = default;
+
+    virtual int channels() const = 0;
+    /// One line that names the model and its parameters, as parse_brdf_spec reads it.
+    virtual std::string name() const = 0;
+
+    /// Writes f(wi, wo) [1/sr] per channel; f.size() == channels().
+    virtual void eval(Vec3 wi, Vec3 wo, std::span<double> f) const = 0;
+
+    /// Draws wo for this wi from two numbers uniform in [0, 1); none when the sample falls where f
+    /// must be 0. E[f cos(theta_o) / pdf] = albedo.
+    virtual std::optional<BsdfSample> sample(Vec3 wi, double u1, double u2) const = 0;
+
+    /// Density of sample() [1/sr]; its integral over the hemisphere is 1 less the share of none.
+    virtual double pdf(Vec3 wi, Vec3 wo) const = 0;
+
+    /// eval() and the density that pdf() gives, at once: models that look both up in one place
+    /// override it.
+    virtual double eval_pdf(Vec3 wi, Vec3 wo, std::span<double> f) const {
+        eval(wi, wo, f);
+        return pdf(wi, wo);
+    }
+
+    /// Directional albedo: the integral of f cos(theta_o) over wo, per channel. The default
+    /// integrates numerically (relative error below 1e-3 for alpha >= 0.05): E[f cos(theta_o) /
+    /// pdf] over 10946 points.
+    virtual void albedo(Vec3 wi, std::span<double> a) const;
+
+    /// True when turning wi and wo together about z never changes f.
+    virtual bool isotropic() const { return false; }
+};
+
+}  // namespace asperity

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/bsdf/models/cook_torrance.h>
+#include <asperity/bsdf/models/lambert.h>
+#include <asperity/core/directions.h>
+#include <asperity/core/error.h>
+#include <asperity/optics/fresnel.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace asperity {
+namespace {
+
+void require(bool holds, const char* setting, double value, const char* words) {
+    if (!holds) throw Error(ErrorCode::Usage, fmt::format("{} is not {}", value, words), setting);
+}
+
+/// Thesis eq. 3.6, code 3.2.
+double geometry_schlick_ggx(double n_dot_v, double k) {
+    return n_dot_v / (n_dot_v * (1 - k) + k);
+}
+
+}  // namespace
+
+CookTorranceBrdf::CookTorranceBrdf(const CookTorranceSettings& settings) : settings_(settings) {
+    const double r = settings.roughness;
+    require(r >= 0.01 && r <= 1, "roughness", r, "within 0.01 .. 1");
+    require(settings.metallic >= 0 && settings.metallic <= 1, "metallic", settings.metallic,
+            "within 0 .. 1");
+    for (const double a : settings.albedo) require(a >= 0 && a <= 1, "albedo", a, "within 0 .. 1");
+    // Code 3.4: the width of the distribution is the square of the roughness.
+    facets_ = {SlopeFamily::Ggx, r * r, r * r};
+    k_ = settings.k == GeometryRemap::Direct ? (r + 1) * (r + 1) / 8 : r * r / 2;
+    const bool diffuse = settings.diffuse == DiffuseTerm::Uncoupled ||
+                         (settings.diffuse == DiffuseTerm::Coupled && settings.metallic < 1);
+    specular_share_ = diffuse ? 0.5 : 1.0;
+}
+
+std::string CookTorranceBrdf::name() const {
+    const char* diffuse = settings_.diffuse == DiffuseTerm::Off       ? "off"
+                          : settings_.diffuse == DiffuseTerm::Coupled ? "on"
+                                                                      : "uncoupled";
+    return fmt::format("cook-torrance:roughness={},metallic={},albedo={},k={},diffuse={}",
+                       settings_.roughness, settings_.metallic, fmt::join(settings_.albedo, "/"),
+                       settings_.k == GeometryRemap::Direct ? "direct" : "ibl", diffuse);
+}
+
+void CookTorranceBrdf::eval(Vec3 wi, Vec3 wo, std::span<double> f) const {
+    if (wi.z <= 0 || wo.z <= 0) {
+        std::fill(f.begin(), f.end(), 0.0);
+        return;
+    }
+    const Vec3 sum = wi + wo;
+    const double sum_length = length(sum);
+    const double h_dot_v = std::min(1.0, 0.5 * sum_length);  // = h.l
+
+    // Eq. 3.8; with a = a_x = a_y the anisotropic form is the same function.
+    const double d = facets_.normal_density((1 / sum_length) * sum);
+    // Eq. 3.7.
+    const double g = geometry_schlick_ggx(wi.z, k_) * geometry_schlick_ggx(wo.z, k_);
+    // Code 4.1 keeps the denominator from zero by 0.0001.
+    const double mirror = d * g / (4 * (wi.z * wo.z) + 0.0001);
+
+    for (std::size_t c = 0; c < f.size(); ++c) {
+        const double albedo = settings_.albedo[c];
+        const double f0 = 0.04 + (albedo - 0.04) * settings_.metallic;
+        const double fresnel = fresnel_schlick(h_dot_v, f0);
+        double kd = 0;
+        if (settings_.diffuse == DiffuseTerm::Coupled)
+            kd = (1 - fresnel) * (1 - settings_.metallic);
+        else if (settings_.diffuse == DiffuseTerm::Uncoupled)
+            kd = 1;
+        f[c] = kd * albedo / kPi + mirror * fresnel;
+    }
+}
+
+std::optional<BsdfSample> CookTorranceBrdf::sample(Vec3 wi, double u1, double u2) const {
+    if (wi.z <= 0) return std::nullopt;
+    Vec3 wo;
+    if (u1 < specular_share_)
+        wo = reflect(wi, facets_.sample_visible_normal(wi, u1 / specular_share_, u2));
+    else
+        wo = sample_cosine((u1 - specular_share_) / (1 - specular_share_), u2);
+    const double density = pdf(wi, wo);
+    if (!(density > 0)) return std::nullopt;
+    return BsdfSample{wo, density};
+}
+
+double CookTorranceBrdf::pdf(Vec3 wi, Vec3 wo) const {
+    if (wi.z <= 0 || wo.z <= 0) return 0;
+    const Vec3 wm = normalize(wi + wo);
+    const double specular = facets_.normal_density(wm) / (4 * wi.z * (1 + facets_.lambda(wi)));
+    return specular_share_ * specular + (1 - specular_share_) * wo.z / kPi;
+}
+
+}  // namespace asperity

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <asperity/core/error.h>
+#include <asperity/core/parse_number.h>
+#include <asperity/formats/atomic_file.h>
+#include <asperity/formats/exr/exr_errors.h>
+#include <asperity/formats/exr/exr_outline.h>
+#include <asperity/formats/heights/height_files.h>
+#include <asperity/formats/read_file.h>
+#include <fmt/format.h>
+
+namespace asperity::io {
+namespace {
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+    throw Error(ErrorCode::InvalidInput, why, path);
+}
+
+std::string only_channel(const Imf::Header& header, const std::string& path) {
+    std::string names, name;
+    int count = 0;
+    for (auto it = header.channels().begin(); it != header.channels().end(); ++it, ++count) {
+        name = it.name();
+        names += (names.empty() ? "" : ", ") + name;
+        if (it.channel().type == Imf::UINT)
+            refuse(path, fmt::format("channel {} holds integers, heights need half or float",
+                                     in_quotes(name)));
+        if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
+            refuse(path, fmt::format("channel {} is subsampled", in_quotes(name)));
+    }
+    if (count != 1) refuse(path, fmt::format("{} channels ({}), heights need one", count, names));
+    return name;
+}
+
+Heightfield read_image(const InputFile& file) {
+    const std::string& path = file.path();
+    Imf::InputFile image(path.c_str());
+    if (!image.isComplete()) refuse(path, "the image is incomplete");
+    const std::string channel = only_channel(image.header(), path);
+
+    const auto box = image.header().dataWindow();
+    const auto nx = static_cast<std::uint64_t>(box.max.x - box.min.x + 1);
+    const auto ny = static_cast<std::uint64_t>(box.max.y - box.min.y + 1);
+    Heightfield surface = empty_patch(nx, ny, path);
+
+    Imf::FrameBuffer frame;
+    const auto row_bytes = static_cast<std::size_t>(nx) * sizeof(float);
+    frame.insert(channel, Imf::Slice::Make(Imf::FLOAT, surface.heights.data(), box, sizeof(float),
+                                           row_bytes));
+    image.setFrameBuffer(frame);
+    image.readPixels(box.min.y, box.max.y);
+    return surface;
+}
+
+}  // namespace
+
+Heightfield read_exr_heights(const std::string& path) {
+    const InputFile file(path);
+    check_exr_outline(file, ExrContent::Heights, check_sides);
+    Heightfield surface;
+    translating_exr(path, ErrorCode::InvalidInput, [&] { surface = read_image(file); });
+    return surface;
+}
+
+void write_exr_heights(const Heightfield& surface, const std::string& path) {
+    AtomicFile file(path);
+    translating_exr(path, ErrorCode::InputOutput, [&] {
+        Imf::Header header(surface.nx, surface.ny);
+        header.compression() = Imf::ZIP_COMPRESSION;
+        header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+        Imf::OutputFile image(file.temporary_path().c_str(), header);
+        Imf::FrameBuffer frame;
+        const auto row_bytes = static_cast<std::size_t>(surface.nx) * sizeof(float);
+        frame.insert("Y", Imf::Slice::Make(Imf::FLOAT, surface.heights.data(), header.dataWindow(),
+                                           sizeof(float), row_bytes));
+        image.setFrameBuffer(frame);
+        image.writePixels(surface.ny);
+    });
+    file.commit();
+}
+
+}  // namespace asperity::io

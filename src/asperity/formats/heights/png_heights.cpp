@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/core/error.h>
+#include <asperity/formats/heights/height_files.h>
+#include <asperity/formats/read_file.h>
+#include <fmt/format.h>
+#include <png.h>
+
+#include <array>
+#include <csetjmp>
+#include <cstring>
+#include <span>
+#include <vector>
+
+namespace asperity::io {
+namespace {
+
+// Deflate cannot pack more than 1032 bytes into one.
+constexpr std::uint64_t kMaxDeflate = 1032;
+constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30;
+
+// All that libpng's jumps must leave intact lives here, outside the functions they cross.
+struct PngInput {
+    std::span<const std::byte> rest;
+    std::array<char, 200> message{};
+};
+
+[[noreturn]] void on_error(png_structp png, png_const_charp why) {
+    auto* input = static_cast<PngInput*>(png_get_error_ptr(png));
+    std::strncpy(input->message.data(), why, input->message.size() - 1);
+    std::longjmp(png_jmpbuf(png), 1);
+}
+
+void on_warning(png_structp, png_const_charp) {}
+
+void on_read(png_structp png, png_bytep bytes, std::size_t count) {
+    auto* input = static_cast<PngInput*>(png_get_io_ptr(png));
+    if (count > input->rest.size()) png_error(png, "the file ends early");
+    std::memcpy(bytes, input->rest.data(), count);
+    input->rest = input->rest.subspan(count);
+}
+
+// libpng's reader, and the two steps that may jump. They hold no object with a destructor.
+class PngReader {
+  public:
+    explicit PngReader(PngInput& input)
+        : png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &input, on_error, on_warning)),
+          info_(png_ == nullptr ? nullptr : png_create_info_struct(png_)) {
+        if (png_ == nullptr || info_ == nullptr) {
+            png_destroy_read_struct(&png_, &info_, nullptr);
+            throw std::bad_alloc();
+        }
+        png_set_read_fn(png_, &input, on_read);
+        png_set_user_limits(png_, kMaxSurfaceSide, kMaxSurfaceSide);
+    }
+    ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+    PngReader(const PngReader&) = delete;
+    PngReader& operator=(const PngReader&) = delete;
+
+    bool read_header() {
+        if (setjmp(png_jmpbuf(png_)) != 0) return false;
+        png_read_info(png_, info_);
+        return true;
+    }
+
+    bool read_rows(png_bytepp rows) {
+        if (setjmp(png_jmpbuf(png_)) != 0) return false;
+        if (depth() == 16) png_set_swap(png_);
+        png_set_interlace_handling(png_);
+        png_read_image(png_, rows);
+        png_read_end(png_, nullptr);
+        return true;
+    }
+
+    std::uint64_t width() const { return png_get_image_width(png_, info_); }
+    std::uint64_t height() const { return png_get_image_height(png_, info_); }
+    int depth() const { return png_get_bit_depth(png_, info_); }
+    bool grey() const { return png_get_color_type(png_, info_) == PNG_COLOR_TYPE_GRAY; }
+
+  private:
+    png_structp png_;
+    png_infop info_;
+};
+
+void check_header(const PngReader& png, std::uint64_t file_bytes, const std::string& path) {
+    const auto refuse = [&](std::string why) {
+        throw Error(ErrorCode::InvalidInput, std::move(why), path);
+    };
+    if (!png.grey()) refuse("heights need a grey PNG without colour, palette or alpha");
+    if (png.depth() != 8 && png.depth() != 16)
+        refuse(fmt::format("heights need 8 or 16 bits, not {}", png.depth()));
+    check_sides(png.width(), png.height(), path);
+    const std::uint64_t bytes = png.width() * png.height() * static_cast<unsigned>(png.depth()) / 8;
+    if (bytes / kMaxDeflate > file_bytes)
+        refuse(fmt::format("{} x {} samples do not fit a file of {} bytes", png.width(),
+                           png.height(), file_bytes));
+}
+
+}  // namespace
+
+Heightfield read_png_heights(const std::string& path) {
+    const std::vector<std::byte> file = read_file(path, kMaxFileBytes);
+    PngInput input{file, {}};
+    PngReader png(input);
+    const auto fail = [&] {
+        throw Error(ErrorCode::InvalidInput, fmt::format("PNG: {}", input.message.data()), path);
+    };
+    if (!png.read_header()) fail();
+    check_header(png, file.size(), path);
+
+    // The picture in its own numbers, then as heights.
+    Heightfield surface = empty_patch(png.width(), png.height(), path);
+    const std::size_t row_bytes =
+        static_cast<std::size_t>(png.width()) * static_cast<std::size_t>(png.depth() / 8);
+    std::vector<png_byte> pixels(row_bytes * static_cast<std::size_t>(surface.ny));
+    std::vector<png_bytep> rows;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(surface.ny); ++j)
+        rows.push_back(pixels.data() + j * row_bytes);
+    if (!png.read_rows(rows.data())) fail();
+    for (std::size_t k = 0; k < surface.heights.size(); ++k) {
+        std::uint16_t value = 0;
+        if (png.depth() == 16)
+            std::memcpy(&value, pixels.data() + 2 * k, sizeof value);
+        else
+            value = pixels[k];
+        surface.heights[k] = static_cast<float>(value / (png.depth() == 16 ? 65535.0 : 255.0));
+    }
+    return surface;
+}
+
+}  // namespace asperity::io

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stanford PLY, as text or binary: the elements vertex and face are read.
+#include <asperity/core/parse_number.h>
+#include <asperity/formats/models/model_formats.h>
+#include <asperity/formats/models/model_text.h>
+#include <asperity/formats/models/ply_header.h>
+#include <asperity/formats/models/polygon.h>
+#include <asperity/formats/read_file.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace asperity::io::detail {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+/// The values of the body one after the other, whatever the encoding.
+class Values {
+  public:
+    Values(std::string_view file, const PlyHeader& header, const std::string& path)
+        : body_(file.substr(header.bytes)),
+          start_(header.bytes),
+          encoding_(header.encoding),
+          words_(body_, header.lines + 1),
+          path_(path) {}
+
+    double next(PlyType type) {
+        return encoding_ == PlyEncoding::Text ? next_word() : next_binary(type);
+    }
+
+    /// Bytes that are left.
+    std::size_t left() const {
+        return encoding_ == PlyEncoding::Text ? words_.left() : body_.size() - place_;
+    }
+
+    [[noreturn]] void fail(std::string why) const {
+        if (encoding_ == PlyEncoding::Text) fail_at_line(path_, words_.line(), std::move(why));
+        fail_at_byte(path_, start_ + place_, std::move(why));
+    }
+
+  private:
+    double next_word() {
+        const std::string_view word = words_.next();
+        if (word.empty()) fail("the file ends before its last element");
+        const auto number = parse_coordinate(word);
+        if (!number) fail(fmt::format("{} is not a number", in_quotes(word)));
+        return *number;
+    }
+
+    double next_binary(PlyType type) {
+        const std::size_t size = bytes_of(type);
+        if (left() < size) fail("the file ends before its last element");
+        std::array<char, 8> bytes{};
+        std::copy_n(body_.begin() + static_cast<std::ptrdiff_t>(place_), size, bytes.begin());
+        if (encoding_ == PlyEncoding::BigEndian)
+            std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
+        place_ += size;
+        switch (type) {
+            case PlyType::Int8:
+                return as<std::int8_t>(bytes);
+            case PlyType::Uint8:
+                return as<std::uint8_t>(bytes);
+            case PlyType::Int16:
+                return as<std::int16_t>(bytes);
+            case PlyType::Uint16:
+                return as<std::uint16_t>(bytes);
+            case PlyType::Int32:
+                return as<std::int32_t>(bytes);
+            case PlyType::Uint32:
+                return as<std::uint32_t>(bytes);
+            case PlyType::Float32:
+                return static_cast<double>(as<float>(bytes));
+            case PlyType::Float64:
+                break;
+        }
+        return as<double>(bytes);
+    }
+
+    template <typename Number>
+    static Number as(const std::array<char, 8>& bytes) {
+        Number value;
+        std::memcpy(&value, bytes.data(), sizeof value);
+        return value;
+    }
+
+    std::string_view body_;
+    std::size_t start_, place_ = 0;
+    PlyEncoding encoding_;
+    Words words_;
+    const std::string& path_;
+};
+
+class PlyReader {
+  public:
+    PlyReader(const ModelSource& source, std::string_view file)
+        : source_(source),
+          header_(read_ply_header(file, source.path)),
+          values_(file, header_, source.path) {}
+
+    Model read() {
+        for (const PlyElement& element : header_.elements) {
+            if (element.name == "vertex")
+                read_vertices(element);
+            else if (element.name == "face")
+                read_faces(element);
+            else
+                skip(element);
+        }
+        Model model;
+        if (!mesh_.triangles.empty()) add_mesh(model, std::move(mesh_));
+        return model;
+    }
+
+  private:
+    void read_vertices(const PlyElement& element) {
+        if (!mesh_.positions.empty()) values_.fail("a second element 'vertex'");
+        if (element.count > std::numeric_limits<std::uint32_t>::max())
+            values_.fail("more vertices than 32 bits can count");
+        const std::array<int, 6> places = {element.find("x"),  element.find("y"),
+                                           element.find("z"),  element.find("nx"),
+                                           element.find("ny"), element.find("nz")};
+        if (std::min({places[0], places[1], places[2]}) < 0)
+            values_.fail("the vertices have no x, y and z");
+        const bool has_normals = std::min({places[3], places[4], places[5]}) >= 0;
+        mesh_.positions.reserve(element.count);
+        if (has_normals) mesh_.normals.reserve(element.count);
+        for (std::uint64_t v = 0; v < element.count; ++v) {
+            std::array<float, 6> found{};
+            for (std::size_t i = 0; i < element.properties.size(); ++i) {
+                const double value = read_value(element.properties[i]);
+                for (std::size_t k = 0; k < 6; ++k) {
+                    if (places[k] == static_cast<int>(i)) found[k] = static_cast<float>(value);
+                }
+            }
+            mesh_.positions.push_back({found[0], found[1], found[2]});
+            if (has_normals) mesh_.normals.push_back({found[3], found[4], found[5]});
+        }
+    }
+
+    void read_faces(const PlyElement& element) {
+        int place = element.find("vertex_indices");
+        if (place < 0) place = element.find("vertex_index");
+        if (place < 0 || !element.properties[static_cast<std::size_t>(place)].is_list)
+            values_.fail("the faces have no list 'vertex_indices'");
+        for (std::uint64_t f = 0; f < element.count; ++f) {
+            for (std::size_t i = 0; i < element.properties.size(); ++i) {
+                if (static_cast<int>(i) == place)
+                    read_polygon(element.properties[i]);
+                else
+                    read_value(element.properties[i]);
+            }
+        }
+    }
+
+    void read_polygon(const PlyProperty& property) {
+        const std::uint64_t corners = list_length(property);
+        if (corners < 3)
+            values_.fail(fmt::format("a face of {} corners, at least 3 are needed", corners));
+        if (mesh_.triangles.size() + corners - 2 > source_.limits.triangles)
+            values_.fail(fmt::format("more than {} triangles", source_.limits.triangles));
+        polygon_.clear();
+        for (std::uint64_t k = 0; k < corners; ++k) {
+            const double index = values_.next(property.type);
+            const auto vertices = static_cast<double>(mesh_.positions.size());
+            // Written so that a NaN is refused as well.
+            if (!(index >= 0 && index < vertices) || index != std::floor(index))
+                values_.fail(fmt::format("a face refers to vertex {}, the file has {}", index,
+                                         mesh_.positions.size()));
+            polygon_.push_back(static_cast<std::uint32_t>(index));
+        }
+        cut_polygon(polygon_, mesh_.positions, mesh_.triangles);
+    }
+
+    std::uint64_t list_length(const PlyProperty& property) {
+        const double length = values_.next(property.count_type);
+        // A value takes a byte or more, so nothing longer than the file is believed.
+        if (!(length >= 0 && length <= static_cast<double>(values_.left())) ||
+            length != std::floor(length))
+            values_.fail(fmt::format("a list of {} values in {} bytes", length, values_.left()));
+        return static_cast<std::uint64_t>(length);
+    }
+
+    /// Reads past the property; returns its value when it is not a list.
+    double read_value(const PlyProperty& property) {
+        if (!property.is_list) return values_.next(property.type);
+        for (std::uint64_t n = list_length(property); n > 0; --n) values_.next(property.type);
+        return 0;
+    }
+
+    void skip(const PlyElement& element) {
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+            for (const PlyProperty& property : element.properties) read_value(property);
+        }
+    }
+
+    const ModelSource& source_;
+    PlyHeader header_;
+    Values values_;
+    TriangleMesh mesh_;
+    std::vector<std::uint32_t> polygon_;
+};
+
+}  // namespace
+
+Model read_ply(ModelSource& source) {
+    const std::string file = read_text_file(source.path, source.limits.file_bytes);
+    return PlyReader(source, file).read();
+}
+
+}  // namespace asperity::io::detail

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/formats/results/field_digest.h>
+#include <asperity/formats/results/tensor_file.h>
+#include <asperity/gonio/measurement.h>
+
+#include <deque>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace asperity::io {
+
+/// A Measurement as fields of a container: first those that depend on nothing but the experiment,
+/// then "provenance" (how it was run), "field_checksums" (one row per field before it) and
+/// "checksum". docs/formats.md lists them all.
+///
+/// The large arrays are not copied: the measurement must outlive this object.
+class ResultFields {
+  public:
+    explicit ResultFields(const Measurement& measurement);
+    ResultFields(const ResultFields&) = delete;
+    ResultFields& operator=(const ResultFields&) = delete;
+
+    std::span<const TensorBlock> blocks() const { return blocks_; }
+    const std::string& checksum() const { return checksum_; }
+
+  private:
+    void add_text(const char* name, std::string text);
+    /// One value per layer.
+    template <typename T>
+    void add_scalars(const char* name, TensorType type, T Layer::*member);
+    /// One array per layer, of this shape.
+    template <typename T>
+    void add_arrays(const char* name, TensorType type, std::vector<std::uint64_t> shape,
+                    std::vector<T> Layer::*member);
+    template <typename T>
+    void add_values(const char* name, TensorType type, std::vector<std::uint64_t> shape,
+                    std::span<const T> values);
+    void add_layers();
+    void add_checksums();
+
+    const Measurement& measurement_;
+    std::deque<std::vector<std::byte>> store_;  ///< what the measurement does not hold as bytes
+    std::vector<TensorBlock> blocks_;
+    std::string checksum_;
+};
+
+/// The JSON texts of the fields "channel_names", "surface" and "provenance", and back. Reading
+/// throws nlohmann's exceptions.
+std::string channel_names_json(const Measurement& measurement);
+std::string surface_json(const Measurement& measurement);
+std::string provenance_json(const Measurement& measurement);
+void read_channel_names_json(const std::string& text, Measurement& measurement);
+void read_surface_json(const std::string& text, Measurement& measurement);
+void read_provenance_json(const std::string& text, Measurement& measurement);
+
+}  // namespace asperity::io

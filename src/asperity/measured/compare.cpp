@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/core/directions.h>
+#include <asperity/core/error.h>
+#include <asperity/gonio/launch.h>
+#include <asperity/measured/compare.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace asperity {
+namespace {
+
+/// One incident direction as both sides of a comparison give it.
+struct Lobes {
+    std::vector<double> energy;  ///< [channel * cells + cell], fraction of the launched energy
+    std::vector<double> noise;   ///< its standard error, same shape; empty: exact
+    std::vector<double> albedo;  ///< per channel
+};
+
+Lobes lobes_of(const Measurement& m, const Layer& layer) {
+    const int cells = m.detector.cells();
+    Lobes lobes;
+    for (int channel = 0; channel < m.channels(); ++channel) {
+        for (int cell = 0; cell < cells; ++cell)
+            lobes.energy.push_back(m.energy(layer, channel, cell));
+        lobes.albedo.push_back(m.albedo(layer, channel));
+    }
+    lobes.noise.assign(layer.stderr_energy.begin(), layer.stderr_energy.end());
+    return lobes;
+}
+
+Lobes lobes_of(CellAverages averages) {
+    return {std::move(averages.energy), {}, std::move(averages.albedo)};
+}
+
+[[noreturn]] void differ(std::string what) {
+    throw Error(ErrorCode::InvalidInput, "cannot be compared: " + std::move(what));
+}
+
+void require_channels(int a, int b) {
+    if (a != b && a != 1 && b != 1) differ(fmt::format("one has {} channels, the other {}", a, b));
+}
+
+/// The distances of two lobes over the cells of `detector`, averaged over the channels; a side of
+/// one channel serves all channels of the other.
+LayerComparison compare_lobes(const Lobes& a, const Lobes& b, const Detector& detector) {
+    const std::size_t cells = static_cast<std::size_t>(detector.cells());
+    const std::size_t columns = static_cast<std::size_t>(detector.columns());
+    const std::size_t channels = std::max(a.albedo.size(), b.albedo.size());
+    const double share = 1 / static_cast<double>(channels);
+    const double noise_to_l1 = std::sqrt(2 / kPi);  // mean |x| of a normal x of unit variance
+
+    LayerComparison result;
+    double squares = 0;
+    for (std::size_t channel = 0; channel < channels; ++channel) {
+        const std::size_t ca = a.albedo.size() == 1 ? 0 : channel;
+        const std::size_t cb = b.albedo.size() == 1 ? 0 : channel;
+        result.albedo_a += share * a.albedo[ca];
+        result.albedo_b += share * b.albedo[cb];
+        for (std::size_t cell = 0; cell < cells; ++cell) {
+            const std::size_t ka = ca * cells + cell, kb = cb * cells + cell;
+            const double difference = a.energy[ka] - b.energy[kb];
+            result.l1 += share * std::abs(difference);
+            // f cos(theta) of a cell is its energy per solid angle.
+            const double solid_angle = detector.solid_angle(static_cast<int>(cell / columns));
+            squares += share * difference * difference / solid_angle;
+            const double noise = std::hypot(a.noise.empty() ? 0.0 : a.noise[ka],
+                                            b.noise.empty() ? 0.0 : b.noise[kb]);
+            result.l1_noise += share * noise_to_l1 * noise;
+        }
+    }
+    result.albedo_difference = result.albedo_a - result.albedo_b;
+    result.rms = std::sqrt(squares / (2 * kPi));
+    return result;
+}
+
+void add(Comparison& comparison, LayerComparison layer, int number, double theta_i, double phi_i) {
+    layer.number = number;
+    layer.theta_i = theta_i;
+    layer.phi_i = phi_i;
+    comparison.layers.push_back(layer);
+}
+
+void summarise(Comparison& c) {
+    for (const LayerComparison& layer : c.layers) {
+        c.mean_l1 += layer.l1;
+        c.mean_rms += layer.rms;
+        c.max_albedo_difference =
+            std::max(c.max_albedo_difference, std::abs(layer.albedo_difference));
+    }
+    const double count = std::max(1.0, static_cast<double>(c.layers.size()));
+    c.mean_l1 /= count;
+    c.mean_rms /= count;
+}
+
+void require_same_detector(const Detector& a, const Detector& b) {
+    if (a.kind() != b.kind())
+        differ("one has a latitude-longitude detector, the other one of equal areas");
+    if (a.rows() != b.rows() || a.columns() != b.columns())
+        differ(fmt::format("one has {} x {} cells, the other {} x {}", a.rows(), a.columns(),
+                           b.rows(), b.columns()));
+}
+
+bool same_direction(const Layer& a, const Layer& b) {
+    constexpr double kTolerance = 1e-9;
+    return std::abs(a.theta_i - b.theta_i) < kTolerance &&
+           std::abs(std::remainder(a.phi_i - b.phi_i, 2 * kPi)) < kTolerance;
+}
+
+/// The layer of `b` with the incidence of `layer`.
+const Layer& partner(const Measurement& b, const Layer& layer) {
+    for (const Layer& other : b.layers)
+        if (same_direction(layer, other)) return other;
+    differ(fmt::format("only one has a layer at theta {:.6g}, phi {:.6g} degrees",
+                       degrees(layer.theta_i), degrees(layer.phi_i)));
+}
+
+}  // namespace
+
+Comparison compare(const Measurement& a, const Measurement& b) {
+    require_same_detector(a.detector, b.detector);
+    require_channels(a.channels(), b.channels());
+    if (a.experiment.illumination.isotropic != b.experiment.illumination.isotropic)
+        differ("one averages over the azimuth of the light, the other does not");
+    if (a.layers.size() != b.layers.size())
+        differ(fmt::format("one has {} layers, the other {}", a.layers.size(), b.layers.size()));
+
+    Comparison result{a.surface_name, b.surface_name, {}, 0, 0, 0};
+    for (const Layer& layer : a.layers)
+        add(result, compare_lobes(lobes_of(a, layer), lobes_of(b, partner(b, layer)), a.detector),
+            layer.number, layer.theta_i, layer.phi_i);
+    summarise(result);
+    return result;
+}
+
+Comparison compare(const Measurement& a, const Bsdf& b, int threads) {
+    require_channels(a.channels(), b.channels());
+    Comparison result{a.surface_name, b.name(), {}, 0, 0, 0};
+    for (const Layer& layer : a.layers) {
+        CellAverages model = average_over_cells(b, a.detector, layer.theta_i, layer.phi_i,
+                                                a.experiment.illumination.isotropic, threads);
+        add(result, compare_lobes(lobes_of(a, layer), lobes_of(std::move(model)), a.detector),
+            layer.number, layer.theta_i, layer.phi_i);
+    }
+    summarise(result);
+    return result;
+}
+
+Comparison compare(const Bsdf& a, const Bsdf& b, const Experiment& experiment, int threads) {
+    require_channels(a.channels(), b.channels());
+    const Detector detector(experiment.detector);
+    Comparison result{a.name(), b.name(), {}, 0, 0, 0};
+    for (const Incidence& light : incidences(experiment.illumination)) {
+        const auto averages = [&](const Bsdf& brdf) {
+            return lobes_of(average_over_cells(brdf, detector, light.theta, light.phi,
+                                               experiment.illumination.isotropic, threads));
+        };
+        add(result, compare_lobes(averages(a), averages(b), detector), light.number, light.theta,
+            light.phi);
+    }
+    summarise(result);
+    return result;
+}
+
+}  // namespace asperity

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/core/directions.h>
+#include <asperity/measured/layer_table.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace asperity {
+namespace {
+
+/// A number u in [0, 1) as an index into shares that rise to 1, and where it stands within it.
+struct Pick {
+    std::size_t index;
+    double inside;  ///< [0, 1)
+};
+
+Pick pick(std::span<const double> shares, double u) {
+    const std::size_t last = shares.size() - 1;
+    const auto found = std::upper_bound(shares.begin(), shares.end() - 1, u);
+    const std::size_t index = std::min(static_cast<std::size_t>(found - shares.begin()), last);
+    const double below = index == 0 ? 0.0 : shares[index - 1];
+    const double inside = (u - below) / (shares[index] - below);
+    return {index, std::clamp(inside, 0.0, std::nextafter(1.0, 0.0))};
+}
+
+double share_of(std::span<const double> shares, std::size_t index) {
+    return shares[index] - (index == 0 ? 0.0 : shares[index - 1]);
+}
+
+/// Turns weights into shares that rise to exactly 1; nothing but zeros into `otherwise`.
+void accumulate_shares(std::span<double> weights, std::span<const double> otherwise) {
+    double total = 0;
+    for (const double w : weights) total += w;
+    if (!(total > 0)) {
+        std::copy(otherwise.begin(), otherwise.end(), weights.begin());
+        total = 0;
+        for (const double w : weights) total += w;
+    }
+    double sum = 0;
+    for (double& w : weights) {
+        sum += w;
+        w = sum / total;
+    }
+    weights.back() = 1;
+}
+
+/// Mean of a linear interpolation over the cell of its middle node, in one dimension.
+double cell_mean(double before, double middle, double after) {
+    return 0.125 * before + 0.75 * middle + 0.125 * after;
+}
+
+/// The cells of one channel, as rows and columns; columns run round, rows end.
+struct CellView {
+    const std::vector<double>& f;
+    std::size_t rows, columns;
+
+    double at(std::size_t row, std::size_t column) const { return f[row * columns + column]; }
+
+    /// cell_mean along the row.
+    double mean_along(std::size_t row, std::size_t column) const {
+        return cell_mean(at(row, (column + columns - 1) % columns), at(row, column),
+                         at(row, (column + 1) % columns));
+    }
+
+    /// cell_mean both ways; the first and the last row are their own neighbours.
+    double mean(std::size_t row, std::size_t column) const {
+        const std::size_t before = row == 0 ? row : row - 1;
+        const std::size_t after = row + 1 == rows ? row : row + 1;
+        return cell_mean(mean_along(before, column), mean_along(row, column),
+                         mean_along(after, column));
+    }
+};
+
+}  // namespace
+
+CellGrid::CellGrid(const Detector& detector) : detector_(detector) {
+    for (int row = 0; row < detector.rows(); ++row) {
+        const double a = std::sin(detector.theta_edge(row));
+        const double b = std::sin(detector.theta_edge(row + 1));
+        theta_nodes_.push_back(std::asin(std::sqrt(0.5 * (a * a + b * b))));
+    }
+}
+
+CellBlend CellGrid::blend(Vec3 wo) const {
+    const std::size_t rows = static_cast<std::size_t>(detector_.rows());
+    const std::size_t columns = static_cast<std::size_t>(detector_.columns());
+
+    // The two columns round the azimuth.
+    const double x = azimuth(wo) * static_cast<double>(columns) / (2 * kPi) + 0.5;
+    const std::size_t right = static_cast<std::size_t>(x);
+    const double t = x - static_cast<double>(right);
+    const std::size_t column1 = right % columns, column0 = (right + columns - 1) % columns;
+
+    // The two rows round the polar angle.
+    const double theta = std::min(polar_angle(wo), 0.5 * kPi);
+    std::size_t row = static_cast<std::size_t>(detector_.cell_of(wo)) / columns;
+    if (theta < theta_nodes_[row]) {
+        if (row == 0) {
+            const double s = theta / theta_nodes_[0];
+            const std::size_t pole = rows * columns;
+            return {{pole, pole, column0, column1}, {1 - s, 0, s * (1 - t), s * t}};
+        }
+        --row;
+    }
+    const std::size_t cell0 = row * columns + column0, cell1 = row * columns + column1;
+    if (row + 1 == rows) return {{cell0, cell1, cell0, cell1}, {1 - t, t, 0, 0}};
+    const double s = (theta - theta_nodes_[row]) / (theta_nodes_[row + 1] - theta_nodes_[row]);
+    return {{cell0, cell1, cell0 + columns, cell1 + columns},
+            {(1 - s) * (1 - t), (1 - s) * t, s * (1 - t), s * t}};
+}
+
+LayerTable::LayerTable(std::shared_ptr<const CellGrid> grid, const Measurement& measurement,
+                       const Layer& layer)
+    : grid_(std::move(grid)), channels_(static_cast<std::size_t>(measurement.channels())) {
+    const Detector& detector = grid_->detector();
+    const std::size_t rows = static_cast<std::size_t>(detector.rows());
+    const std::size_t columns = static_cast<std::size_t>(detector.columns());
+    const std::size_t cells = rows * columns;
+    const bool has_errors = !layer.stderr_energy.empty();
+
+    f_.resize((cells + 1) * channels_);
+    std::vector<double> measured(cells), all_channels(cells, 0.0);
+    for (std::size_t channel = 0; channel < channels_; ++channel) {
+        const int c = static_cast<int>(channel);
+        for (std::size_t cell = 0; cell < cells; ++cell)
+            measured[cell] = measurement.brdf(layer, c, static_cast<int>(cell));
+        const CellView view{measured, rows, columns};
+        double pole = 0;
+        for (std::size_t cell = 0; cell < cells; ++cell) {
+            // Raise the node by what the mean over the cell would miss, beyond twice its error.
+            const double missing = measured[cell] - view.mean(cell / columns, cell % columns);
+            const double error =
+                has_errors ? measurement.brdf_stderr(layer, c, static_cast<int>(cell)) : 0.0;
+            const double certain =
+                std::copysign(std::max(0.0, std::abs(missing) - 2 * error), missing);
+            const double node = std::max(0.0, measured[cell] + certain);
+            f_[cell * channels_ + channel] = static_cast<float>(node);
+            all_channels[cell] += node;
+            // At the pole all columns meet: their mean.
+            if (cell < columns) pole += node / static_cast<double>(columns);
+        }
+        f_[cells * channels_ + channel] = static_cast<float>(pole);
+        albedo_.push_back(measurement.albedo(layer, c));
+    }
+    build_distribution(all_channels);
+}
+
+void LayerTable::build_distribution(const std::vector<double>& f) {
+    const Detector& detector = grid_->detector();
+    const std::size_t rows = static_cast<std::size_t>(detector.rows());
+    const std::size_t columns = static_cast<std::size_t>(detector.columns());
+    const CellView view{f, rows, columns};
+    // Where no light left, spread the samples as from a diffuse surface.
+    const std::vector<double> even(columns, 1.0);
+    std::vector<double> diffuse;
+    cells_.resize(rows * columns);
+    for (std::size_t row = 0; row < rows; ++row) {
+        const std::span<double> part = std::span(cells_).subspan(row * columns, columns);
+        const double size = detector.projected_solid_angle(static_cast<int>(row));
+        double total = 0;
+        for (std::size_t column = 0; column < columns; ++column) {
+            part[column] = view.mean(row, column) * size;
+            total += part[column];
+        }
+        rows_.push_back(total);
+        diffuse.push_back(size);
+        accumulate_shares(part, even);
+    }
+    accumulate_shares(rows_, diffuse);
+}
+
+void LayerTable::eval(Vec3 wo, std::span<double> f) const {
+    const CellBlend blend = grid_->blend(wo);
+    for (std::size_t channel = 0; channel < channels_; ++channel) {
+        double sum = 0;
+        for (std::size_t k = 0; k < blend.cell.size(); ++k)
+            sum += blend.weight[k] * static_cast<double>(f_[blend.cell[k] * channels_ + channel]);
+        f[channel] = sum;
+    }
+}
+
+Vec3 LayerTable::sample(double u1, double u2) const {
+    const Detector& detector = grid_->detector();
+    const std::size_t columns = static_cast<std::size_t>(detector.columns());
+    const Pick row = pick(rows_, u1);
+    const Pick column = pick(std::span(cells_).subspan(row.index * columns, columns), u2);
+
+    const int r = static_cast<int>(row.index);
+    const double a = std::sin(detector.theta_edge(r)), b = std::sin(detector.theta_edge(r + 1));
+    const double sin2 = a * a + row.inside * (b * b - a * a);
+    const double phi = 2 * kPi * (static_cast<double>(column.index) + column.inside) /
+                       static_cast<double>(columns);
+    return {std::sqrt(sin2) * std::cos(phi), std::sqrt(sin2) * std::sin(phi),
+            std::sqrt(1 - std::min(1.0, sin2))};
+}
+
+double LayerTable::pdf(Vec3 wo) const {
+    if (wo.z <= 0) return 0;
+    const Detector& detector = grid_->detector();
+    const std::size_t columns = static_cast<std::size_t>(detector.columns());
+    const std::size_t cell = static_cast<std::size_t>(detector.cell_of(wo));
+    const std::size_t row = cell / columns;
+    const double share =
+        share_of(rows_, row) *
+        share_of(std::span(cells_).subspan(row * columns, columns), cell % columns);
+    return share * wo.z / detector.projected_solid_angle(static_cast<int>(row));
+}
+
+}  // namespace asperity

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/bsdf/bsdf.h>
+#include <asperity/gonio/measurement.h>
+
+#include <memory>
+
+namespace asperity {
+
+/// The BRDF of a Measurement: evaluated between its layers and sampled with a matching density.
+///
+/// Between layers (theta_i, and phi_i when several were measured, which runs round): for wi and wo,
+/// every neighbouring layer is asked for the direction into which the facet that mirrors wi to wo
+/// sends the layer's own light. There its lobe has the same place, so lobes move with the light
+/// instead of fading one into another; f times both cosines, held off zero, is what is blended.
+/// Where a layer's direction falls below the horizon the other layers count. A factor found for
+/// incident directions 1.5 degrees apart then makes the albedo the blend of the layers' albedos.
+/// Light sent straight back (grooves) does not follow the mirror: between layers it may double.
+///
+/// Within a layer: linear between the cells, the pole a node of its own, constant from the last
+/// row's middle to the horizon; peaks are kept as far as they stand out of the error bars.
+///
+/// Beyond the last layer (and before the first) the nearest layer's lobe moves on with the light,
+/// with that layer's albedo. Measured with one azimuth only, outgoing azimuths count from the
+/// light, as if the surface were isotropic. Sampling draws from the layers' energies, one in ten
+/// samples from a cosine. Channels are the measurement's.
+///
+/// Throws Error(InvalidInput) when the measurement has no layers, a layer without rays, or layers
+/// that do not form a grid of theta_i x phi_i. Keeps its own copy of the tables: 4 bytes a cell and
+/// channel, 8 a cell. Takes about a second to make for one azimuth, several for many.
+std::unique_ptr<Bsdf> make_tabulated_brdf(const Measurement& measurement);
+
+}  // namespace asperity

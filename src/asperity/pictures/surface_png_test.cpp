@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/formats/test_files.h>
+#include <asperity/pictures/picture_test_data.h>
+#include <asperity/pictures/pictures.h>
+
+#include <cmath>
+
+namespace asperity::io {
+namespace {
+
+using test::ReadPng;
+
+template <typename Height>
+Heightfield surface_of(int nx, int ny, Height&& height) {
+    Heightfield s;
+    s.nx = nx, s.ny = ny;
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) s.heights.push_back(static_cast<float>(height(i, j)));
+    return s;
+}
+
+TEST(SurfacePng, FlatSurfaceIsPureGreenInTheThesisLook) {
+    const test::TemporaryFolder folder;
+    write_surface_png(surface_of(8, 8, [](int, int) { return 3; }), folder / "a.png",
+                      SurfaceLook::Normals);
+    const ReadPng png(folder / "a.png");
+    EXPECT_EQ(png.width, 1024);
+    EXPECT_EQ(png.at(500, 500), (std::vector<int>{0, 255, 0}));
+}
+
+// Slope 1 along x: normal (-1, 0, 1) / sqrt(2), so red = green = 180 of 255, blue = 0. Along y,
+// blue takes the place of red.
+TEST(SurfacePng, SlopesAlongXAreRedAlongYBlue) {
+    const test::TemporaryFolder folder;
+    write_surface_png(surface_of(64, 64, [](int i, int) { return i; }), folder / "x.png",
+                      SurfaceLook::Normals);
+    EXPECT_EQ(ReadPng(folder / "x.png").at(100, 100), (std::vector<int>{180, 180, 0}));
+    write_surface_png(surface_of(64, 64, [](int, int j) { return j; }), folder / "y.png",
+                      SurfaceLook::Normals);
+    EXPECT_EQ(ReadPng(folder / "y.png").at(100, 100), (std::vector<int>{0, 180, 180}));
+}
+
+// One raised sample at (1, 0) of 4 x 4: for the anti-diagonal cell (0, 0) is cut from its upper
+// right to its lower left corner. Lower triangle: slope (1, 0); upper: right edge falls, (0, -1).
+TEST(SurfacePng, ShowsBothTrianglesOfACellAndRowZeroOnTop) {
+    const test::TemporaryFolder folder;
+    Heightfield s = surface_of(4, 4, [](int i, int j) { return i == 1 && j == 0 ? 1 : 0; });
+    write_surface_png(s, folder / "a.png", SurfaceLook::Normals);
+    const ReadPng anti(folder / "a.png");
+    ASSERT_EQ(anti.width, 1024);
+    EXPECT_EQ(anti.at(40, 40), (std::vector<int>{180, 180, 0}));
+    EXPECT_EQ(anti.at(220, 220), (std::vector<int>{0, 180, 180}));
+    EXPECT_EQ(anti.at(40, 600), (std::vector<int>{0, 255, 0}));
+    // Cut from upper left to lower right: lower triangle (0,0), (1,0), (1,1): slope (1, -1); the
+    // other one does not touch the raised sample.
+    s.diagonal = Diagonal::Main;
+    write_surface_png(s, folder / "b.png", SurfaceLook::Normals);
+    const ReadPng main(folder / "b.png");
+    EXPECT_EQ(main.at(220, 40), (std::vector<int>{147, 147, 147}));
+    EXPECT_EQ(main.at(40, 220), (std::vector<int>{0, 255, 0}));
+}
+
+// 4096 cells at 4 a pixel. Stripes of slope +1 and -1 one cell wide: |n| is the same everywhere.
+TEST(SurfacePng, LargeSurfacesAreAveraged) {
+    const test::TemporaryFolder folder;
+    write_surface_png(surface_of(4096, 6, [](int i, int) { return i % 2; }), folder / "a.png",
+                      SurfaceLook::Normals);
+    const ReadPng png(folder / "a.png");
+    EXPECT_EQ(png.width, 1024);
+    EXPECT_EQ(png.height, 2);  // 6 rows at 4: the last pixel covers two
+    EXPECT_EQ(png.at(700, 1), (std::vector<int>{180, 180, 0}));
+}
+
+TEST(SurfacePng, LightComesFromTheUpperLeft) {
+    const test::TemporaryFolder folder;
+    // A ridge along the diagonal of the picture: its upper left flank is lit.
+    const auto ridge = [](int i, int j) { return 8 - std::abs(i + j - 16) / 2.0; };
+    write_surface_png(surface_of(16, 16, ridge), folder / "a.png", SurfaceLook::Shaded);
+    const ReadPng png(folder / "a.png");
+    const auto light = [&](int i, int j) {
+        const auto c = png.at(64 * i + 32, 64 * j + 20);
+        return c[0] + c[1] + c[2];
+    };
+    EXPECT_GT(light(6, 6), light(9, 9) + 100);
+    EXPECT_GT(light(6, 6), light(2, 2));  // and high places are brighter than deep ones
+}
+
+TEST(SurfacePng, FinitePatchHasNoLastCell) {
+    const test::TemporaryFolder folder;
+    Heightfield s = surface_of(5, 3, [](int, int) { return 0; });
+    s.boundary = Boundary::Finite;
+    write_surface_png(s, folder / "a.png", SurfaceLook::Shaded);
+    const ReadPng png(folder / "a.png");
+    EXPECT_EQ(png.width, 1024);
+    EXPECT_EQ(png.height, 512);
+}
+
+TEST(SurfacePng, RefusesBrokenSurfacesAndPlaces) {
+    const test::TemporaryFolder folder;
+    Heightfield s = surface_of(4, 4, [](int, int) { return 0; });
+    test::expect_error(ErrorCode::InputOutput, "nowhere", [&] {
+        write_surface_png(s, folder / "nowhere/a.png", SurfaceLook::Shaded);
+    });
+    s.heights[3] = std::nanf("");
+    test::expect_error(ErrorCode::InvalidInput, "a.png",
+                       [&] { write_surface_png(s, folder / "a.png", SurfaceLook::Normals); });
+    EXPECT_EQ(folder.files(), 0);
+}
+
+}  // namespace
+}  // namespace asperity::io
