@@ -2,11 +2,11 @@
 // The program: finds the verb, runs it, and says in one line what went wrong.
 #include "console.h"
 #include "help.h"
-#include "suggest.h"
 #include "verbs.h"
 
 #include <asperity/core/error.h>
 #include <asperity/core/version.h>
+#include <asperity/params/suggest.h>
 
 #include <fmt/format.h>
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "options.h"
 
-#include "suggest.h"
-
 #include <asperity/core/error.h>
 #include <asperity/formats/results/experiment_text.h>
 #include <asperity/optics/fresnel.h>
+#include <asperity/params/suggest.h>
 
 #include <fmt/format.h>
 

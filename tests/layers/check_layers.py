@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads the #include lines of a source tree and fails on one that runs against the data.
 
-    core <- optics, surface <- tracing <- gonio <- measured <- formats, pictures <- apps
+    core <- params <- optics, surface <- tracing <- gonio <- measured <- formats, pictures <- apps
     core <- optics, surface <- bsdf <- measured, render
 
 A room of src/asperity, a folder or the folder of a kind of format, includes only itself and what
@@ -19,10 +19,11 @@ from pathlib import Path
 
 MAY_SEE = {
     "core": set(),
-    "optics": {"core"},
-    "surface": {"core"},
+    "params": {"core"},
+    "optics": {"core", "params"},
+    "surface": {"core", "params"},
     "tracing": {"core", "optics", "surface"},
-    "gonio": {"core", "optics", "surface", "tracing"},
+    "gonio": {"core", "params", "optics", "surface", "tracing"},
     "bsdf": {"core", "optics", "surface"},
     "measured": {"core", "optics", "surface", "tracing", "gonio", "bsdf"},
     "render": {"core", "optics", "surface", "bsdf"},
@@ -31,7 +32,7 @@ MAY_SEE = {
     "formats/heights": {"core", "surface", "formats", "formats/exr"},
     "formats/images": {"core", "render", "formats", "formats/exr"},
     "formats/models": {"core", "render", "formats"},
-    "formats/results": {"core", "optics", "surface", "gonio", "formats"},
+    "formats/results": {"core", "params", "optics", "surface", "gonio", "formats"},
     "formats/bsdfs": {"core", "gonio", "bsdf", "measured", "formats", "formats/exr"},
     "pictures": {"core", "surface", "tracing", "gonio", "bsdf", "measured", "render", "formats"},
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace asperity::cli {
+namespace asperity {
 
 /// The name nearest to what was typed, counting letters added, dropped, changed or swapped; empty
 /// when none is near enough to be meant.
@@ -13,4 +13,4 @@ std::string nearest(const std::string& typed, const std::vector<std::string>& na
 /// "; did you mean NAME?" or nothing.
 std::string did_you_mean(const std::string& typed, const std::vector<std::string>& names);
 
-}  // namespace asperity::cli
+}  // namespace asperity

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "suggest.h"
+#include <asperity/params/suggest.h>
 
 #include <algorithm>
 #include <cstddef>
 
-namespace asperity::cli {
+namespace asperity {
 
 namespace {
 
@@ -49,4 +49,4 @@ std::string did_you_mean(const std::string& typed, const std::vector<std::string
     return name.empty() ? std::string() : "; did you mean " + name + "?";
 }
 
-}  // namespace asperity::cli
+}  // namespace asperity

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/params/param.h>
+
+#include <asperity/core/parse_number.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace asperity {
+
+namespace {
+
+double parse_real(const ParamInfo& info, std::string_view text) {
+    const bool percent = info.percent && text.ends_with('%');
+    const auto value = parse_double(percent ? trimmed(text.substr(0, text.size() - 1)) : text);
+    if (!value)
+        refuse(info, in_quotes(text) + (percent ? " is not a percentage" : " is not a number"));
+    return percent ? *value / 100 : *value;
+}
+
+/// Digits, or a number such as 1e6 that is whole and exact.
+template <typename Whole>
+Whole parse_whole(const ParamInfo& info, std::string_view text) {
+    if (const auto value = parse_integer<Whole>(text)) return *value;
+    const auto real = parse_double(text);
+    const double least = std::is_signed_v<Whole> ? -0x1p53 : 0;
+    if (!real || *real != std::floor(*real) || *real < least || *real > 0x1p53)
+        refuse(info, in_quotes(text) + " is not a whole number" +
+                         (std::is_signed_v<Whole> ? "" : " in 0 .. 2^64 - 1"));
+    return static_cast<Whole>(*real);
+}
+
+bool parse_flag(const ParamInfo& info, std::string_view text) {
+    for (const char* word : {"true", "yes", "on", "1"})
+        if (text == word) return true;
+    for (const char* word : {"false", "no", "off", "0"})
+        if (text == word) return false;
+    refuse(info, in_quotes(text) + " is neither true nor false");
+}
+
+std::vector<double> parse_list(const ParamInfo& info, std::string_view text) {
+    std::vector<double> numbers;
+    if (info.type == ParamType::List && (text.empty() || text == info.absent)) return numbers;
+    const auto parts = split(text, ',');
+    const std::size_t most = info.type == ParamType::Pair ? 2 : info.most;
+    if (parts.size() > most)
+        refuse(info, fmt::format("{} is more than {} numbers", in_quotes(text), most));
+    for (const std::string_view part : parts) {
+        const bool open = info.type == ParamType::Pair && part == info.absent && !part.empty();
+        numbers.push_back(open ? std::nan("") : parse_real(info, part));
+    }
+    if (info.type == ParamType::Pair) numbers.resize(2, numbers.front());
+    return numbers;
+}
+
+void check_number(const ParamInfo& info, double value, const std::string& text) {
+    if (info.range.contains(value)) return;
+    refuse(info,
+           in_quotes(text) + " " + info.range.rule() + (info.unit.empty() ? "" : " " + info.unit));
+}
+
+std::string real_text(double value, const ParamInfo& info) {
+    return std::isnan(value) ? info.absent : shortest(value);
+}
+
+std::string list_text(const ParamInfo& info, const std::vector<double>& list) {
+    if (list.empty()) return info.absent;
+    std::string text = real_text(list.front(), info);
+    const bool one = info.type == ParamType::Pair && real_text(list.back(), info) == text;
+    for (std::size_t k = 1; k < list.size() && !one; ++k) text += "," + real_text(list[k], info);
+    return text;
+}
+
+}  // namespace
+
+std::string Range::rule() const {
+    const bool below = high != kNoEnd, above = low != -kNoEnd;
+    if (!below && !above) return "must be finite";
+    if (below && above && !low_open && !high_open)
+        return fmt::format("must be in {} .. {}", shortest(low), shortest(high));
+    if (!below && low == 0 && !low_open) return "must not be negative";
+    std::string rule = "must be ";
+    if (above) rule += (low_open ? "above " : "at least ") + shortest(low);
+    if (below && above) rule += " and ";
+    if (below) rule += (high_open ? "below " : "at most ") + shortest(high);
+    return rule;
+}
+
+std::string Range::text() const {
+    const bool below = high != kNoEnd, above = low != -kNoEnd;
+    if (below && above && !low_open && !high_open)
+        return fmt::format("{} .. {}", shortest(low), shortest(high));
+    std::string text;
+    if (above) text += (low_open ? "above " : "at least ") + shortest(low);
+    if (below && above) text += ", ";
+    if (below) text += (high_open ? "below " : "at most ") + shortest(high);
+    return text;
+}
+
+void refuse(const ParamInfo& info, std::string why) {
+    throw Error(ErrorCode::Usage, std::move(why), info.name);
+}
+
+ParamValue parse(const ParamInfo& info, std::string_view raw) {
+    const std::string_view text = trimmed(raw);
+    const bool list = info.type == ParamType::List || info.type == ParamType::Pair;
+    if (!list && !info.absent.empty() && text == info.absent) return std::monostate{};
+    switch (info.type) {
+        case ParamType::Flag:
+            return parse_flag(info, text);
+        case ParamType::Integer:
+            return parse_whole<std::int64_t>(info, text);
+        case ParamType::Natural:
+            return parse_whole<std::uint64_t>(info, text);
+        case ParamType::Real:
+            return parse_real(info, text);
+        case ParamType::List:
+        case ParamType::Pair:
+            return parse_list(info, text);
+        case ParamType::Choice:
+            if (std::find(info.choices.begin(), info.choices.end(), text) == info.choices.end())
+                refuse(info, fmt::format("{} is none of {}", in_quotes(text),
+                                         fmt::join(info.choices, ", ")));
+            return std::string(text);
+        case ParamType::Text:
+            break;
+    }
+    return std::string(raw);
+}
+
+void check(const ParamInfo& info, const ParamValue& value) {
+    if (const auto* integer = std::get_if<std::int64_t>(&value))
+        check_number(info, static_cast<double>(*integer), std::to_string(*integer));
+    else if (const auto* natural = std::get_if<std::uint64_t>(&value))
+        check_number(info, static_cast<double>(*natural), std::to_string(*natural));
+    else if (const auto* real = std::get_if<double>(&value))
+        check_number(info, *real, shortest(*real));
+    else if (const auto* list = std::get_if<std::vector<double>>(&value)) {
+        for (const double entry : *list)
+            if (!(std::isnan(entry) && info.type == ParamType::Pair && !info.absent.empty()))
+                check_number(info, entry, shortest(entry));
+    }
+}
+
+std::string format(const ParamInfo& info, const ParamValue& value) {
+    struct Writer {
+        const ParamInfo& info;
+        std::string operator()(std::monostate) const { return info.absent; }
+        std::string operator()(bool flag) const { return flag ? "true" : "false"; }
+        std::string operator()(std::int64_t number) const { return std::to_string(number); }
+        std::string operator()(std::uint64_t number) const { return std::to_string(number); }
+        std::string operator()(double number) const { return shortest(number); }
+        std::string operator()(const std::string& text) const { return text; }
+        std::string operator()(const std::vector<double>& list) const {
+            return list_text(info, list);
+        }
+    };
+    return std::visit(Writer{info}, value);
+}
+
+std::string metavar(const ParamInfo& info) {
+    if (!info.metavar.empty()) return info.metavar;
+    switch (info.type) {
+        case ParamType::Flag:
+            return {};
+        case ParamType::Integer:
+        case ParamType::Natural:
+            return "N";
+        case ParamType::Real:
+            return "X";
+        case ParamType::Choice:
+            return "NAME";
+        case ParamType::Text:
+            return "TEXT";
+        case ParamType::List:
+            return "X[,X...]";
+        case ParamType::Pair:
+            return "X[,Y]";
+    }
+    return {};
+}
+
+std::string label(const ParamInfo& info) {
+    if (!info.label.empty()) return info.label;
+    std::string text = info.name;
+    bool begins = true;
+    for (char& c : text) {
+        if (begins) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+        begins = c == '-';
+        if (begins) c = ' ';
+    }
+    return text;
+}
+
+}  // namespace asperity
