@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// asperity export: the layers of a result as images other programs read.
+// asperity export: a result as files and images other programs read.
 #include "console.h"
 #include "help.h"
 #include "options.h"
@@ -7,7 +7,8 @@
 #include "verbs.h"
 
 #include <asperity/core/error.h>
-#include <asperity/formats/bsdfs/layers_exr.h>
+#include <asperity/core/run.h>
+#include <asperity/formats/bsdfs/bsdf_format.h>
 #include <asperity/formats/results/result_file.h>
 #include <asperity/pictures/pictures.h>
 
@@ -26,6 +27,7 @@ constexpr const char* kClosing =
     "Examples\n"
     "  asperity export metal.asperity -o layers.exr     (all layers, one EXR part each, f in "
     "1/sr)\n"
+    "  asperity export metal.asperity -o table.csv --format layers-csv\n"
     "  asperity export metal.asperity -o pictures/      (a PNG per layer and sheet.png)\n"
     "  asperity export metal.asperity -o sheet.png --projection disk --colour-map viridis\n";
 
@@ -46,9 +48,13 @@ class ExportVerb {
   public:
     explicit ExportVerb(CLI::App& app) {
         file_ = add_text(app, "file", "FILE", "a result of asperity simulate", "");
-        output_ =
-            add_text(app, "-o,--output", "X.exr | X.png | FOLDER/",
-                     "a multi-part EXR, one sheet of all layers, or a folder of pictures", kOutput);
+        output_ = add_text(app, "-o,--output", "FILE | X.png | FOLDER/",
+                           "a file in one of the formats, one sheet of all layers, or a folder of "
+                           "pictures",
+                           kOutput);
+        format_ = add_text(app, "--format", "NAME[:KEY=VALUE,...]",
+                           "a format and its options, see below", kOutput)
+                      ->default_str("by the ending");
         colour_map_ = add_text(app, "--colour-map,--color-map", "NAME",
                                "PNG: viridis, inferno, grey or thesis-red", kOutput)
                           ->default_str("inferno");
@@ -64,17 +70,59 @@ class ExportVerb {
                             kOutput)
                        ->default_str("mean of all");
         app.add_flag("--quiet", quiet_, "do not name the files written")->group(kOutput);
-        set_help(app, "export FILE -o X.exr | X.png | FOLDER/", kClosing);
+        set_help(app, "export FILE -o X.exr | X.csv | X.png | FOLDER/", formats_text() + kClosing);
     }
 
     int run() const {
         if (file_->count() == 0) throw Error(ErrorCode::Usage, "export needs a result file");
         if (output_->count() == 0) {
-            throw Error(ErrorCode::Usage, "export needs -o with a name ending in .exr, .png or /");
+            throw Error(ErrorCode::Usage,
+                        "export needs -o with a name ending in .png, / or that of a format");
         }
         const std::string path = text_of(output_);
+        if (!wants_pictures(path)) return write_file(path);
+        if (format_->count() > 0)
+            throw Error(ErrorCode::Usage, "pictures have no format", "format");
+        return write_pictures(path);
+    }
+
+  private:
+    /// Formats and their options, for the help.
+    std::string formats_text() const {
+        std::string text = "Formats\n";
+        for (const io::BsdfFormat& format : formats_.rows()) {
+            if (!format.write) continue;
+            text += fmt::format("  {:<12} .{}: {}\n", format.name, fmt::join(format.endings, ", ."),
+                                format.doc);
+            for (const io::FormatOption& option : format.options)
+                text +=
+                    fmt::format("      {}={}: {}\n", option.name,
+                                option.otherwise.empty() ? "auto" : option.otherwise, option.doc);
+        }
+        return text + "\n";
+    }
+
+    int write_file(const std::string& path) const {
+        const std::string spec = text_of(format_);
+        const std::size_t colon = spec.find(':');
+        const io::BsdfFormat& format = formats_.for_writing(path, spec.substr(0, colon));
+        const io::FormatOptions options(
+            format.options,
+            colon == spec.npos ? std::string_view{} : std::string_view(spec).substr(colon + 1));
+        check_output_file(path);
+        const auto measurement =
+            std::make_shared<const Measurement>(io::load_measurement(text_of(file_)));
+        const io::ExportSource source(measurement, Run().threads());
+        const std::vector<std::string> remarks = format.write(source, options, path);
+        const Talk say(quiet_, false);
+        say("wrote " + path + "\n");
+        for (const std::string& remark : remarks) say("  " + remark + "\n");
+        return 0;
+    }
+
+    int write_pictures(const std::string& path) const {
         io::SkyMapSettings look = look_of_options();
-        const bool folder = is_folder(path);
+        const bool folder = ending(path) != "png";
         folder ? check_output_folder(path) : check_output_file(path);
 
         const Measurement m = io::load_measurement(text_of(file_));
@@ -85,8 +133,6 @@ class ExportVerb {
             const std::string sheet = (std::filesystem::path(path) / "sheet.png").string();
             io::write_layer_sheet(m, sheet, look);
             written.push_back(sheet);
-        } else if (ending(path) == "exr") {
-            io::write_layers_exr(m, path);
         } else {
             io::write_layer_sheet(m, path, look);
         }
@@ -95,7 +141,6 @@ class ExportVerb {
         return 0;
     }
 
-  private:
     io::SkyMapSettings look_of_options() const {
         io::SkyMapSettings look;
         look.colour_map = choose<io::ColourMap>("colour-map", text_of(colour_map_, "inferno"),
@@ -116,14 +161,13 @@ class ExportVerb {
         return look;
     }
 
-    static bool is_folder(const std::string& path) {
+    /// A sheet, or a folder: a name that ends in "/", is one, or has no ending.
+    bool wants_pictures(const std::string& path) const {
         std::error_code ignored;
         if (!path.empty() && path.back() == '/') return true;
         if (std::filesystem::is_directory(path, ignored)) return true;
-        const std::string kind = ending(path);
-        if (kind == "exr" || kind == "png") return false;
-        if (kind.empty() && !path.empty()) return true;
-        throw Error(ErrorCode::Usage, "the name must end in .exr, .png or /", path);
+        if (format_->count() > 0) return false;
+        return ending(path) == "png" || (ending(path).empty() && !path.empty());
     }
 
     int channel_of(const Measurement& m) const {
@@ -140,8 +184,9 @@ class ExportVerb {
                     "channel");
     }
 
-    CLI::Option *file_ = nullptr, *output_ = nullptr, *colour_map_ = nullptr, *scale_ = nullptr,
-                *decades_ = nullptr, *projection_ = nullptr, *channel_ = nullptr;
+    io::BsdfFormats formats_;
+    CLI::Option *file_ = nullptr, *output_ = nullptr, *format_ = nullptr, *colour_map_ = nullptr,
+                *scale_ = nullptr, *decades_ = nullptr, *projection_ = nullptr, *channel_ = nullptr;
     bool quiet_ = false;
 };
 

@@ -33,7 +33,8 @@ MAY_SEE = {
     "formats/images": {"core", "render", "formats", "formats/exr"},
     "formats/models": {"core", "render", "formats"},
     "formats/results": {"core", "params", "optics", "surface", "gonio", "formats"},
-    "formats/bsdfs": {"core", "gonio", "bsdf", "measured", "formats", "formats/exr"},
+    "formats/bsdfs": {"core", "gonio", "bsdf", "measured", "formats", "formats/exr",
+                      "formats/results"},
     "pictures": {"core", "surface", "tracing", "gonio", "bsdf", "measured", "render", "formats"},
 }
 

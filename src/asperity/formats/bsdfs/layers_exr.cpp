@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/error.h>
 #include <asperity/core/version.h>
+#include <asperity/formats/bsdfs/bsdf_format.h>
 #include <asperity/formats/bsdfs/layers_exr.h>
 #include <asperity/formats/exr/exr_stream.h>
 #include <fmt/format.h>
@@ -198,6 +199,20 @@ void write_layers_exr(const Measurement& measurement, const std::string& path) {
     if (measurement.layers.empty())
         throw Error(ErrorCode::Usage, "there is no layer to write", path);
     write_exr(path, [&](Imf::OStream& stream) { write_parts(stream, measurement); });
+}
+
+BsdfFormat layers_exr_format() {
+    const auto write = [](const ExportSource& source, const FormatOptions&,
+                          const std::string& path) -> BsdfFormat::Remarks {
+        if (!source.measurement())
+            throw Error(ErrorCode::Usage, "layers needs a measurement", "format");
+        write_layers_exr(*source.measurement(), path);
+        return {};
+    };
+    return {
+        "layers", {"exr"}, "all layers as a multi-part EXR: f, errors, energies and bounce orders",
+        {},       write,   {},
+        {}};
 }
 
 }  // namespace asperity::io

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/formats/bsdfs/builtin_formats.h>
+
+namespace asperity::io {
+
+// Each stands in the file of its name.
+BsdfFormat layers_exr_format();
+BsdfFormat layers_csv_format();
+
+std::vector<BsdfFormat> builtin_formats() {
+    return {
+        layers_exr_format(),
+        layers_csv_format(),
+    };
+}
+
+}  // namespace asperity::io
