@@ -8,6 +8,7 @@
 A room of src/asperity, a folder or the folder of a kind of format, includes only itself and what
 MAY_SEE names. Formats see the data types of the others, and no room of data sees a format. render
 sees neither gonio nor tracing: where a BRDF came from must not matter.
+The test links (check_links.py) reads the same of what CMake links.
 Programs see all of the library but no library of numerics: physics has no place in them.
 
 usage: check_layers.py ROOT        prints one line for each wrong include; exits 1 if there is one
