@@ -40,7 +40,7 @@ MAY_SEE = {
 }
 
 # First folder, or the whole name, of the headers that apps must leave to the library.
-NUMERICS = {"Eigen", "unsupported", "Random123", "assimp", "embree3", "tbb", "oneapi", "hwy"}
+NUMERICS = {"Eigen", "unsupported", "Random123", "embree3", "tbb", "oneapi", "hwy"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 

@@ -61,7 +61,7 @@ QString about_text() {
               "<p>A virtual gonioreflectometer: what light does on a rough surface, and the BRDF "
               "that comes of it.</p>"
               "<p>Apache License 2.0. Built with Qt %2 (LGPL 3, linked dynamically), Embree and "
-              "oneTBB (Apache 2.0), Eigen (MPL 2), Highway (Apache 2.0), OpenEXR, assimp and "
+              "oneTBB (Apache 2.0), Eigen (MPL 2), Highway (Apache 2.0), OpenEXR and "
               "Random123 (BSD), fmt and nlohmann-json (MIT), libpng.</p>")
         .arg(kVersion, qVersion());
 }

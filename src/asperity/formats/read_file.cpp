@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -69,6 +70,22 @@ void InputFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
         offset += static_cast<std::uint64_t>(count);
         bytes = bytes.subspan(static_cast<std::size_t>(count));
     }
+}
+
+FileStart read_start(const std::string& path) {
+    constexpr std::uint64_t kMost = 4096;
+    const InputFile file(path);
+    FileStart start{std::string(static_cast<std::size_t>(std::min(file.size(), kMost)), '\0'),
+                    file.size()};
+    file.read(0, std::as_writable_bytes(std::span(start.bytes)));
+    return start;
+}
+
+std::string_view without_byte_order_mark(std::string_view text, const std::string& path) {
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+        throw Error(ErrorCode::InvalidInput, "it is text in UTF-16, save it as UTF-8", path);
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    return text;
 }
 
 std::vector<std::byte> read_file(const std::string& path, std::uint64_t max_bytes) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace asperity::io {
@@ -31,6 +32,20 @@ class InputFile {
     int descriptor_ = -1;
     std::uint64_t size_ = 0;
 };
+
+/// What tells a format by its content.
+struct FileStart {
+    std::string bytes;  ///< the first of the file, up to 4096
+    std::uint64_t size = 0;
+};
+/// Throws as InputFile.
+FileStart read_start(const std::string& path);
+
+inline constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
+/// `text` without the byte order mark that some programs put in front of UTF-8. Throws
+/// Error(InvalidInput, path) when the mark says UTF-16, which no reader of ours takes.
+std::string_view without_byte_order_mark(std::string_view text, const std::string& path);
 
 /// The whole file. Throws as InputFile, and Error(InvalidInput, path) for more than `max_bytes`.
 std::vector<std::byte> read_file(const std::string& path, std::uint64_t max_bytes);

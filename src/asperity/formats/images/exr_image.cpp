@@ -7,13 +7,21 @@
 #include <asperity/formats/exr/exr_outline.h>
 #include <asperity/formats/images/image_formats.h>
 #include <asperity/formats/images/image_reader.h>
+#include <asperity/formats/read_file.h>
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
-namespace asperity::io {
-
+namespace asperity::io::detail {
 namespace {
+
+// A picture may be mostly black around what the file has, up to a point.
+constexpr std::uint64_t kFreePixels = 1 << 22, kMostBlack = 100;
+
+constexpr std::size_t kSlice = 1 << 22;  // pixels that are read at a time
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
     throw Error(ErrorCode::InvalidInput, why, path);
@@ -40,36 +48,85 @@ std::vector<std::string> channels_of(const Imf::Header& header, const std::strin
     return channels;
 }
 
+/// The window that a viewer shows: what is not in the file is black there, and what lies outside of
+/// it is not shown.
+Image empty_picture(const Imath::Box2i& shown, const Imath::Box2i& data, const std::string& path) {
+    const auto side = [](int low, int high) {
+        return static_cast<std::uint64_t>(std::int64_t{high} - low + 1);
+    };
+    const std::uint64_t width = side(shown.min.x, shown.max.x);
+    const std::uint64_t height = side(shown.min.y, shown.max.y);
+    check_image_size(width, height, path);
+    if (!shown.intersects(data)) refuse(path, "no pixel lies in its display window");
+    const std::uint64_t there = side(data.min.x, data.max.x) * side(data.min.y, data.max.y);
+    if (width * height > kFreePixels && width * height / kMostBlack > there)
+        refuse(path, fmt::format("{} x {} pixels are shown, {} are there", width, height, there));
+    return {static_cast<int>(width), static_cast<int>(height),
+            std::vector<float>(static_cast<std::size_t>(3 * width * height))};
+}
+
+/// Copies lines of the data window, from `top` on, to where they are shown.
+void show(const std::vector<float>& lines, int top, int bottom, const Imath::Box2i& data,
+          const Imath::Box2i& shown, Image& image) {
+    const int left = std::max(data.min.x, shown.min.x), right = std::min(data.max.x, shown.max.x);
+    const auto data_width = static_cast<std::size_t>(data.max.x - data.min.x + 1);
+    const auto count = static_cast<std::size_t>(3 * (right - left + 1));
+    for (int y = std::max(top, shown.min.y); y <= std::min(bottom, shown.max.y); ++y) {
+        const auto from = static_cast<std::size_t>(y - top) * data_width +
+                          static_cast<std::size_t>(left - data.min.x);
+        const auto to =
+            static_cast<std::size_t>(y - shown.min.y) * static_cast<std::size_t>(image.width) +
+            static_cast<std::size_t>(left - shown.min.x);
+        std::copy_n(lines.begin() + static_cast<std::ptrdiff_t>(3 * from), count,
+                    image.rgb.begin() + static_cast<std::ptrdiff_t>(3 * to));
+    }
+}
+
 Image read_pixels(const std::string& path) {
     Imf::InputFile file(path.c_str());
     if (!file.isComplete()) refuse(path, "the image is incomplete");
     const std::vector<std::string> channels = channels_of(file.header(), path);
+    const Imath::Box2i data = file.header().dataWindow(), shown = file.header().displayWindow();
 
-    const auto box = file.header().dataWindow();
-    Image image{box.max.x - box.min.x + 1, box.max.y - box.min.y + 1, {}};
-    constexpr std::size_t kPixel = 3 * sizeof(float);
-    const auto width = static_cast<std::size_t>(image.width);
-    image.rgb.resize(3 * width * static_cast<std::size_t>(image.height));
-
-    Imf::FrameBuffer frame;
-    for (std::size_t c = 0; c < channels.size(); ++c)
-        frame.insert(channels[c], Imf::Slice::Make(Imf::FLOAT, image.rgb.data() + c, box, kPixel,
-                                                   kPixel * width));
-    file.setFrameBuffer(frame);
-    file.readPixels(box.min.y, box.max.y);
-    if (channels.size() == 1)
-        for (std::size_t k = 0; k < image.rgb.size(); k += 3)
-            image.rgb[k + 1] = image.rgb[k + 2] = image.rgb[k];
+    // A slice first: memory for the picture is taken when its first lines were there.
+    const auto width = static_cast<std::size_t>(data.max.x - data.min.x + 1);
+    const int step = static_cast<int>(std::max<std::size_t>(kSlice / width, 1));
+    std::vector<float> lines;
+    Image image;
+    for (int top = data.min.y; top <= data.max.y; top += step) {
+        const int bottom = std::min(top + step - 1, data.max.y);
+        const Imath::Box2i slice({data.min.x, top}, {data.max.x, bottom});
+        lines.resize(3 * width * static_cast<std::size_t>(bottom - top + 1));
+        constexpr std::size_t kPixel = 3 * sizeof(float);
+        Imf::FrameBuffer frame;
+        for (std::size_t c = 0; c < channels.size(); ++c)
+            frame.insert(channels[c], Imf::Slice::Make(Imf::FLOAT, lines.data() + c, slice, kPixel,
+                                                       kPixel * width));
+        file.setFrameBuffer(frame);
+        file.readPixels(top, bottom);
+        for (std::size_t k = 0; channels.size() == 1 && k < lines.size(); k += 3)
+            lines[k + 1] = lines[k + 2] = lines[k];
+        if (top == data.min.y) image = empty_picture(shown, data, path);
+        show(lines, top, bottom, data, shown, image);
+    }
     return image;
 }
 
-}  // namespace
+bool is_exr(const FileStart& start) {
+    return start.bytes.starts_with("\x76\x2f\x31\x01");
+}
 
-Image read_exr_image(const std::string& path) {
+Image read_exr(const std::string& path) {
     check_exr_outline(InputFile(path), ExrContent::Picture, check_image_size);
     Image image;
     translating_exr(path, ErrorCode::InvalidInput, [&] { image = read_pixels(path); });
     return image;
 }
 
-}  // namespace asperity::io
+}  // namespace
+
+ImageFormat exr_format() {
+    return {"OpenEXR", {".exr"}, is_exr, read_exr};
+}
+
+}  // namespace asperity::io::detail

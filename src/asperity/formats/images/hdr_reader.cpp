@@ -14,8 +14,7 @@
 #include <optional>
 #include <string_view>
 
-namespace asperity::io {
-
+namespace asperity::io::detail {
 namespace {
 
 constexpr std::uint64_t kMaxFileBytes = std::uint64_t{2} << 30;
@@ -23,8 +22,9 @@ constexpr std::size_t kMaxHeaderLine = 4096;
 constexpr double kLeastExposure = 1e-100;  // and its inverse the most: numbers stay finite
 
 // A picture of more bytes than this must not be this many times as large as its file.
-constexpr std::uint64_t kTrustedBytes = 1 << 20;
-constexpr std::uint64_t kMaxCompression = 10000;
+// The new run lengths reach 190 times at most.
+constexpr std::uint64_t kTrustedBytes = 1 << 24;
+constexpr std::uint64_t kMaxCompression = 1000;
 
 // Scan lines of these lengths may have the new run lengths.
 constexpr std::size_t kLeastRunLine = 8, kMostRunLine = 0x7fff;
@@ -47,9 +47,10 @@ class HdrReader {
         read_header();
         read_resolution();
         prepare_scale();
+        std::vector<Rgbe> line(static_cast<std::size_t>(places_.length));
+        check_lines(line);
         Image image{static_cast<int>(columns().length), static_cast<int>(rows().length), {}};
         image.rgb.resize(static_cast<std::size_t>(3 * lines_.length * places_.length));
-        std::vector<Rgbe> line(static_cast<std::size_t>(places_.length));
         for (std::size_t k = 0; k < lines_.length; ++k) {
             read_line(line);
             store(line, k, image);
@@ -62,6 +63,7 @@ class HdrReader {
     void read_resolution();
     Axis axis(std::string_view direction, std::string_view length) const;
     void prepare_scale();
+    void check_lines(std::vector<Rgbe>& line);
     void read_line(std::vector<Rgbe>& line);
     void read_new_runs(std::vector<Rgbe>& line);
     void read_old_runs(std::vector<Rgbe>& line);
@@ -135,12 +137,22 @@ void HdrReader::read_resolution() {
     if (lines_.name == places_.name) fail("the resolution names an axis twice");
     check_image_size(columns().length, rows().length, path_);
 
-    // A line takes 4 bytes at least; runs have their limits
-    const std::uint64_t bytes = 3 * sizeof(float) * lines_.length * places_.length;
-    if (4 * lines_.length > bytes_.size() - place_ ||
-        (bytes > kTrustedBytes && bytes / kMaxCompression > bytes_.size()))
+    // A line takes 4 bytes at least
+    if (4 * lines_.length > bytes_.size() - place_)
         fail(fmt::format("{} x {} pixels do not fit a file of {} bytes", columns().length,
                          rows().length, bytes_.size()));
+}
+
+/// Walks over all lines before memory is taken for the picture, and back: what stands behind the
+/// last of them does not count.
+void HdrReader::check_lines(std::vector<Rgbe>& line) {
+    const std::size_t start = place_;
+    for (std::size_t k = 0; k < lines_.length; ++k) read_line(line);
+    const std::uint64_t bytes = 3 * sizeof(float) * lines_.length * places_.length;
+    if (bytes > kTrustedBytes && bytes / kMaxCompression > place_ - start)
+        fail(fmt::format("{} x {} pixels out of {} bytes", columns().length, rows().length,
+                         place_ - start));
+    place_ = start;
 }
 
 /// Mantissas count in 2^-8 of 2^(exponent - 128).
@@ -224,11 +236,19 @@ void HdrReader::store(const std::vector<Rgbe>& line, std::size_t number, Image& 
     }
 }
 
-}  // namespace
-
-Image read_hdr_image(const std::string& path) {
+Image read_hdr(const std::string& path) {
     const std::string bytes = read_text_file(path, kMaxFileBytes);
     return HdrReader(path, bytes).read();
 }
 
-}  // namespace asperity::io
+bool is_hdr(const FileStart& start) {
+    return start.bytes.starts_with("#?");
+}
+
+}  // namespace
+
+ImageFormat hdr_format() {
+    return {"Radiance HDR", {".hdr", ".pic", ".rgbe"}, is_hdr, read_hdr};
+}
+
+}  // namespace asperity::io::detail

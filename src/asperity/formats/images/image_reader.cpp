@@ -10,13 +10,21 @@
 
 namespace asperity::io {
 
-Image read_image(const std::string& path) {
-    const InputFile file(path);
-    std::string start(static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), 4)), '\0');
-    file.read(0, std::as_writable_bytes(std::span(start)));
-    if (start == "\x76\x2f\x31\x01") return read_exr_image(path);
-    if (start.starts_with("#?")) return read_hdr_image(path);
-    throw Error(ErrorCode::InvalidInput, "neither an OpenEXR nor a Radiance HDR picture", path);
+std::span<const ImageFormat> image_formats() {
+    static const std::vector<ImageFormat> kFormats = {detail::exr_format(), detail::hdr_format()};
+    return kFormats;
+}
+
+Image read_image(const std::string& path, const ImageReadSettings& settings) {
+    const FileStart start = read_start(path);
+    std::vector<ImageFormat> formats = settings.formats;
+    formats.insert(formats.end(), image_formats().begin(), image_formats().end());
+    std::string names;
+    for (const ImageFormat& format : formats) {
+        if (format.sniff(start)) return format.read(path);
+        names += (names.empty() ? "" : ", ") + format.name;
+    }
+    throw Error(ErrorCode::InvalidInput, "it is none of: " + names, path);
 }
 
 void check_image_size(std::uint64_t width, std::uint64_t height, const std::string& path) {

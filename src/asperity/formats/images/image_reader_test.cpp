@@ -119,8 +119,8 @@ TEST(HdrReader, OldRunLengths) {
 }
 
 TEST(HdrReader, SaysWhatIsWrong) {
-    expect_hdr_refused("", "a.hdr: neither an OpenEXR nor a Radiance HDR picture");
-    expect_hdr_refused("GIF89a", "neither an OpenEXR nor a Radiance HDR picture");
+    expect_hdr_refused("", "a.hdr: it is none of: OpenEXR, Radiance HDR");
+    expect_hdr_refused("GIF89a", "it is none of: OpenEXR, Radiance HDR");
     expect_hdr_refused("#?", "a.hdr:0: the file ends inside the header");
     expect_hdr_refused("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n",
                        "the format '32-bit_rle_xyze' is not read");
@@ -135,8 +135,12 @@ TEST(HdrReader, SaysWhatIsWrong) {
     expect_hdr_refused(hdr_header("-Y 1 +X 99999999999999999999"), "a side of");
     expect_hdr_refused(hdr_header("-Y 1 +X -5"), "a side of '-5' pixels");
     expect_hdr_refused(hdr_header("-Y 32768 +X 32768"), "268435456 in all are allowed");
-    expect_hdr_refused(hdr_header("-Y 8192 +X 32768") + std::string(32768, '\1'),
-                       "32768 x 8192 pixels do not fit a file of");
+    expect_hdr_refused(hdr_header("-Y 8192 +X 32768") + std::string(32768, '\x09'),
+                       "ends inside the pixels");
+    // A run of 32767 pixels in 12 bytes, over and over, with as many bytes behind as one likes
+    std::string bomb = hdr_header("-Y 8000 +X 32767");
+    for (int y = 0; y < 8000; ++y) bomb += grey_pixel(9) + bytes({1, 1, 1, 254, 1, 1, 1, 127});
+    expect_hdr_refused(bomb + std::string(1 << 20, '\1'), "32767 x 8000 pixels out of 96000 bytes");
     expect_hdr_refused(hdr_header("-Y 2 +X 1") + grey_pixel(1), "1 x 2 pixels do not fit a file");
     expect_hdr_refused(hdr_header("-Y 1 +X 2") + grey_pixel(1), "ends inside the pixels");
     expect_hdr_refused(hdr_header("-Y 1 +X 2") + bytes({1, 1, 1, 2}), "begins with a repetition");
@@ -166,12 +170,15 @@ float value_at(std::size_t channel, int x, int y) {
     return static_cast<float>(100 * static_cast<int>(channel) + 10 * y + x) / 8;
 }
 
-/// 7 x 5 pixels, the data window at (-3, 2).
+/// 7 x 5 pixels that begin at (-3, 2).
+const Imath::Box2i kDataWindow({-3, 2}, {3, 6});
+
 void write_exr(const std::string& path, const std::vector<Channel>& channels,
-               Imf::Compression compression = Imf::ZIP_COMPRESSION, bool tiles = false) {
+               Imf::Compression compression = Imf::ZIP_COMPRESSION, bool tiles = false,
+               const Imath::Box2i& shown = kDataWindow) {
     constexpr int kWidth = 7, kHeight = 5;
-    const Imath::Box2i window({-3, 2}, {-3 + kWidth - 1, 2 + kHeight - 1});
-    Imf::Header header({{0, 0}, {20, 20}}, window);
+    const Imath::Box2i window = kDataWindow;
+    Imf::Header header(shown, window);
     header.compression() = compression;
     if (tiles) header.setTileDescription({4, 4, Imf::ONE_LEVEL});
     Imf::FrameBuffer frame;
@@ -241,6 +248,51 @@ TEST(ExrReader, LuminanceAloneIsGrey) {
     const Image image = read_image(folder / "a.exr");
     const auto y = static_cast<double>(value_at(0, 6, 4));
     EXPECT_EQ(image.at(6, 4), (Rgb{y, y, y}));
+}
+
+// A crop of a panorama stays at its place, and what is missing is black; overscan is cut off.
+TEST(ExrReader, ShowsTheDisplayWindow) {
+    const TemporaryFolder folder;
+    const std::vector<Channel> channels = {{"R"}, {"G"}, {"B"}};
+    for (const bool tiles : {false, true}) {
+        for (const Imath::Box2i& shown :
+             {Imath::Box2i({-5, 0}, {5, 9}), Imath::Box2i({-1, 3}, {2, 4}),
+              Imath::Box2i({0, 0}, {20, 20}), Imath::Box2i({3, 6}, {3, 6})}) {
+            write_exr(folder / "a.exr", channels, Imf::ZIP_COMPRESSION, tiles, shown);
+            const Image image = read_image(folder / "a.exr");
+            ASSERT_EQ(image.width, shown.max.x - shown.min.x + 1);
+            ASSERT_EQ(image.height, shown.max.y - shown.min.y + 1);
+            for (int y = shown.min.y; y <= shown.max.y; ++y) {
+                for (int x = shown.min.x; x <= shown.max.x; ++x) {
+                    const bool there = kDataWindow.intersects(Imath::V2i(x, y));
+                    const auto g = there ? static_cast<double>(value_at(1, x + 3, y - 2)) : 0;
+                    ASSERT_EQ(image.at(x - shown.min.x, y - shown.min.y).g, g) << x << ' ' << y;
+                }
+            }
+        }
+    }
+    const auto refused = [&](const Imath::Box2i& shown, const std::string& why) {
+        write_exr(folder / "a.exr", channels, Imf::ZIP_COMPRESSION, false, shown);
+        expect_error(ErrorCode::InvalidInput, why, [&] { read_image(folder / "a.exr"); });
+    };
+    refused({{50, 50}, {60, 60}}, "no pixel lies in its display window");
+    refused({{0, 0}, {32767, 8191}}, "32768 x 8192 pixels are shown, 35 are there");
+    refused({{0, 0}, {32768, 0}}, "1 to 32768 on a side");
+}
+
+// A format of a user's own comes before ours.
+TEST(ImageReader, AProgramAddsARow) {
+    const TemporaryFolder folder;
+    ImageReadSettings settings;
+    settings.formats = {{"grey by a word",
+                         {".grey"},
+                         [](const FileStart& start) { return start.bytes.starts_with("grey"); },
+                         [](const std::string&) {
+                             return Image{1, 1, {0.5f, 0.5f, 0.5f}};
+                         }}};
+    put(folder / "a.exr", "grey");
+    EXPECT_EQ(read_image(folder / "a.exr", settings).at(0, 0).g, 0.5);
+    expect_error(ErrorCode::InvalidInput, "none of", [&] { read_image(folder / "a.exr"); });
 }
 
 TEST(ExrReader, SaysWhatIsWrong) {

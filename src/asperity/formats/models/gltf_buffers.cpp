@@ -120,12 +120,13 @@ bool is_below(const std::filesystem::path& name) {
 GltfContainer open_gltf(const ModelSource& source) {
     std::string file = read_text_file(source.path, source.limits.file_bytes);
     if (is_binary(file)) return take_apart(file, source.path);
-    return {std::move(file), 0, std::nullopt};
+    const std::size_t mark = file.size() - without_byte_order_mark(file, source.path).size();
+    return {file.substr(mark), mark, std::nullopt};
 }
 
-std::string read_gltf_uri(std::string_view uri, const ModelSource& source) {
+std::string_view GltfFiles::read(std::string_view uri) {
     const auto fail = [&](std::string why) {
-        throw Error(ErrorCode::InvalidInput, std::move(why), source.path);
+        throw Error(ErrorCode::InvalidInput, std::move(why), source_.path);
     };
     if (uri.starts_with("data:")) {
         constexpr std::string_view kMark = ";base64,";
@@ -133,13 +134,25 @@ std::string read_gltf_uri(std::string_view uri, const ModelSource& source) {
         if (mark == std::string_view::npos) fail("a data: URI that is not base64");
         auto bytes = decode_base64(uri.substr(mark + kMark.size()));
         if (!bytes) fail("a data: URI that is not base64");
-        return *std::move(bytes);
+        return keep(fmt::format("data:{}", files_.size()), *std::move(bytes));
     }
     const std::filesystem::path name = decode_percent(uri);
     if (!is_below(name))
         fail(fmt::format("buffer {} does not lie in the folder of the model", in_quotes(uri)));
-    const auto folder = std::filesystem::path(source.path).parent_path();
-    return read_text_file((folder / name).string(), source.limits.file_bytes);
+    const auto folder = std::filesystem::path(source_.path).parent_path();
+    const std::string path = (folder / name).string();
+    // Two names of one file are one file.
+    std::error_code error;
+    const std::string place = std::filesystem::canonical(path, error).string();
+    const auto known = files_.find(place);
+    if (!error && known != files_.end()) return known->second;
+    const std::uint64_t left = source_.limits.file_bytes - bytes_read_;
+    return keep(error ? path : place, read_text_file(path, left));
+}
+
+std::string_view GltfFiles::keep(const std::string& name, std::string bytes) {
+    bytes_read_ += bytes.size();
+    return files_[name] = std::move(bytes);
 }
 
 }  // namespace asperity::io::detail

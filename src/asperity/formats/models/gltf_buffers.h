@@ -4,6 +4,8 @@
 
 #include <asperity/formats/models/model_formats.h>
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,8 +22,24 @@ struct GltfContainer {
 /// Throws Error(InvalidInput, "path:byte").
 GltfContainer open_gltf(const ModelSource& source);
 
-/// The bytes of a buffer's "uri": base64 or a file in the model's folder or below it. Throws
-/// Error(InvalidInput, path) for another place, Error(InputOutput) when it cannot be read.
-std::string read_gltf_uri(std::string_view uri, const ModelSource& source);
+/// The buffers of a scene, by their "uri": base64, or a file in the model's folder or below it. A
+/// file that several buffers name is read once.
+class GltfFiles {
+  public:
+    explicit GltfFiles(const ModelSource& source) : source_(source) {}
+
+    /// Throws Error(InvalidInput, path) for another place, or when all files together are larger
+    /// than allowed; Error(InputOutput) when one cannot be read. The bytes live as long as this.
+    std::string_view read(std::string_view uri);
+
+    std::uint64_t bytes_read() const { return bytes_read_; }
+
+  private:
+    std::string_view keep(const std::string& name, std::string bytes);
+
+    const ModelSource& source_;
+    std::map<std::string, std::string> files_;
+    std::uint64_t bytes_read_ = 0;
+};
 
 }  // namespace asperity::io::detail

@@ -1,33 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// One reader per model format, called by read_model. Each believes nothing: what a file declares is
-// compared with its bytes before memory is taken for it, and every index with what there is.
+// One reader per model format, each in a file of its own, and what they share. A reader believes
+// nothing: what a file declares is compared with its bytes before memory is taken for it, and every
+// index with what there is.
 #pragma once
 
-#include <asperity/formats/models/model_reader.h>
+#include <asperity/formats/models/model_format.h>
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace asperity::io::detail {
 
-/// What a reader needs to know and may remark on.
-struct ModelSource {
-    std::string path;
-    ModelLimits limits;
-    std::vector<std::string> remarks;
-};
+// The rows of model_formats().
+ModelFormat obj_format();
+ModelFormat ply_format();
+ModelFormat stl_format();
+ModelFormat gltf_format();  ///< .gltf and .glb
+ModelFormat threeds_format();
 
-// Each returns meshes and instances as the file has them: triangles that cannot be drawn are still
-// there, indices are in range, normals are none or one a vertex. Errors as read_model.
-Model read_obj(ModelSource& source);
-Model read_ply(ModelSource& source);
-Model read_stl(ModelSource& source);
-Model read_gltf(ModelSource& source);  ///< .gltf and .glb
-Model read_3ds(ModelSource& source);
-
-/// One mesh that stands once in the world, untransformed.
-void add_mesh(Model& model, TriangleMesh mesh);
+/// One mesh that stands once in the world, its own origin at `origin`.
+void add_mesh(Model& model, TriangleMesh mesh, Vec3 origin = {});
 
 /// Throws Error(InvalidInput) when there are more triangles or meshes than allowed.
 void check_limits(const Model& model, const ModelSource& source);

@@ -13,8 +13,11 @@
 
 namespace asperity::io::detail {
 
-void add_mesh(Model& model, TriangleMesh mesh) {
-    model.instances.push_back({static_cast<std::uint32_t>(model.meshes.size()), {}, Role::Subject});
+void add_mesh(Model& model, TriangleMesh mesh, Vec3 origin) {
+    Transform to_world;
+    to_world.origin = origin;
+    model.instances.push_back(
+        {static_cast<std::uint32_t>(model.meshes.size()), to_world, Role::Subject});
     model.meshes.push_back(std::move(mesh));
 }
 

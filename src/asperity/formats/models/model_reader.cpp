@@ -3,17 +3,20 @@
 
 #include <asperity/core/error.h>
 #include <asperity/core/parse_number.h>
+#include <asperity/formats/models/far_coordinates.h>
 #include <asperity/formats/models/model_formats.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <new>
-#include <string_view>
+#include <span>
+#include <stdexcept>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 namespace asperity::io {
 namespace {
@@ -21,25 +24,45 @@ namespace {
 // Single precision, and the squares of it that tracing takes, must hold both.
 constexpr double kFarthest = 1e15, kSmallest = 1e-15;
 
-struct Format {
-    std::string_view ending;
-    Model (*read)(detail::ModelSource&);
-};
+using Formats = std::span<const ModelFormat>;
 
-constexpr std::array<Format, 6> kFormats = {{{".obj", detail::read_obj},
-                                             {".ply", detail::read_ply},
-                                             {".stl", detail::read_stl},
-                                             {".gltf", detail::read_gltf},
-                                             {".glb", detail::read_gltf},
-                                             {".3ds", detail::read_3ds}}};
-
-const Format* format_of(const std::string& path) {
+const ModelFormat* by_ending(Formats formats, const std::string& path) {
     std::string ending = std::filesystem::path(path).extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const auto* const found = std::find_if(kFormats.begin(), kFormats.end(),
-                                           [&](const Format& f) { return f.ending == ending; });
-    return found == kFormats.end() ? nullptr : found;
+    for (const ModelFormat& format : formats) {
+        if (std::find(format.endings.begin(), format.endings.end(), ending) != format.endings.end())
+            return &format;
+    }
+    return nullptr;
+}
+
+const ModelFormat* by_content(Formats formats, const FileStart& start) {
+    const auto found = std::find_if(formats.begin(), formats.end(),
+                                    [&](const ModelFormat& f) { return f.sniff(start); });
+    return found == formats.end() ? nullptr : &*found;
+}
+
+std::string names_of(Formats formats) {
+    std::string names;
+    for (const ModelFormat& format : formats)
+        names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", format.name,
+                             fmt::join(format.endings, ", "));
+    return names;
+}
+
+/// The format of the file: content decides, then the ending.
+const ModelFormat& format_of(Formats formats, ModelSource& source) {
+    const ModelFormat* const named = by_ending(formats, source.path);
+    const ModelFormat* const found = by_content(formats, read_start(source.path));
+    if (found != nullptr && named != nullptr && found != named)
+        source.remarks.push_back(fmt::format("it is {}, whatever its ending says", found->name));
+    if (found != nullptr) return *found;
+    if (named != nullptr) return *named;
+    throw Error(
+        ErrorCode::Usage,
+        fmt::format("{} is no model file: {} are read", in_quotes(source.path), names_of(formats)),
+        "model");
 }
 
 bool is_finite(Vec3 v) {
@@ -94,13 +117,29 @@ void check_extent(const Model& model, const std::string& path) {
                     path);
 }
 
-ModelFile read_checked(const Format& format, const std::string& path,
-                       const ModelReadSettings& settings) {
-    detail::ModelSource source{path, settings.limits, {}};
+/// What remains far from the origin is traced in single precision there.
+void remark_on_place(ModelFile& file) {
+    const Bounds box = bounds(file.model);
+    detail::Extent extent;
+    extent.add(box.low);
+    extent.add(box.high);
+    constexpr double kFar = 1000;
+    if (extent.farthest() > kFar * extent.across())
+        file.remarks.push_back(fmt::format(
+            "it stands {:.3g} from the origin and is {:.3g} across: tracing there loses "
+            "precision, unless it is fitted",
+            extent.farthest(), extent.across()));
+}
+
+ModelFile read_checked(const std::string& path, const ModelReadSettings& settings) {
+    std::vector<ModelFormat> formats = settings.formats;
+    formats.insert(formats.end(), model_formats().begin(), model_formats().end());
+    ModelSource source{path, settings.limits, {}};
     ModelFile file;
-    file.model = format.read(source);
-    file.remarks = std::move(source.remarks);
+    file.model = format_of(formats, source).read(source);
     detail::check_limits(file.model, source);
+    detail::recentre(file.model, source.remarks);
+    file.remarks = std::move(source.remarks);
     clean(file);
     if (file.model.instances.empty())
         throw Error(ErrorCode::InvalidInput, "there is no triangle to be drawn in it", path);
@@ -109,26 +148,32 @@ ModelFile read_checked(const Format& format, const std::string& path,
         set_normals(mesh, settings.normals, settings.crease_deg);
     check(file.model);
     check_extent(file.model, path);
-    if (settings.fit) fit_to_unit_sphere(file.model);
+    if (settings.fit)
+        fit_to_unit_sphere(file.model);
+    else
+        remark_on_place(file);
     return file;
 }
 
 }  // namespace
 
+std::span<const ModelFormat> model_formats() {
+    static const std::vector<ModelFormat> kFormats = {
+        detail::gltf_format(), detail::ply_format(), detail::stl_format(), detail::threeds_format(),
+        detail::obj_format()};
+    return kFormats;
+}
+
 bool is_model_file(const std::string& path) {
-    return format_of(path) != nullptr;
+    if (by_ending(model_formats(), path) != nullptr) return true;
+    std::error_code error;
+    return std::filesystem::is_regular_file(path, error) &&
+           by_content(model_formats(), read_start(path)) != nullptr;
 }
 
 ModelFile read_model(const std::string& path, const ModelReadSettings& settings) {
-    const Format* const format = format_of(path);
-    if (format == nullptr)
-        throw Error(ErrorCode::Usage,
-                    fmt::format("{} is no model file: .obj, .ply, .stl, .gltf, .glb and .3ds are "
-                                "read",
-                                in_quotes(path)),
-                    "model");
     try {
-        return read_checked(*format, path, settings);
+        return read_checked(path, settings);
     } catch (const std::bad_alloc&) {
         throw Error(ErrorCode::OutOfMemory, "there is not enough memory to read it", path);
     } catch (const std::length_error&) {

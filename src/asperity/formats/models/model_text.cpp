@@ -18,7 +18,7 @@ bool is_space(char c) {
 
 std::string_view Words::next() {
     for (; place_ < text_.size() && is_space(text_[place_]); ++place_) {
-        if (text_[place_] == '\n') ++line_;
+        if (text_[place_] == end_of_line_) ++line_;
     }
     const std::size_t begin = place_;
     while (place_ < text_.size() && !is_space(text_[place_])) ++place_;
@@ -27,10 +27,28 @@ std::string_view Words::next() {
 
 std::string_view Words::rest_of_line() {
     const std::size_t begin = place_;
-    const std::size_t end = std::min(text_.find('\n', begin), text_.size());
+    const std::size_t end = std::min(text_.find(end_of_line_, begin), text_.size());
     place_ = std::min(end + 1, text_.size());
     if (place_ > end) ++line_;
     return text_.substr(begin, end - begin);
+}
+
+char end_of_line(std::string_view text) {
+    const std::size_t first = text.find_first_of("\r\n");
+    const bool old_macintosh = first != std::string_view::npos && text[first] == '\r' &&
+                               first + 1 < text.size() && text[first + 1] != '\n';
+    return old_macintosh ? '\r' : '\n';
+}
+
+bool is_text(std::string_view start) {
+    return std::all_of(start.begin(), start.end(),
+                       [](char c) { return static_cast<unsigned char>(c) >= ' ' || is_space(c); });
+}
+
+bool same_word(std::string_view a, std::string_view b) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [&](char x, char y) { return lower(x) == lower(y); });
 }
 
 std::optional<double> parse_coordinate(std::string_view word) {

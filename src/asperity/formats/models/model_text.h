@@ -11,8 +11,9 @@ namespace asperity::io::detail {
 /// The words of a text, told apart by white space, and the line on which each stands.
 class Words {
   public:
-    explicit Words(std::string_view text, std::uint64_t first_line = 1)
-        : text_(text), line_(first_line) {}
+    /// `end_of_line`: as end_of_line() finds it.
+    explicit Words(std::string_view text, std::uint64_t first_line = 1, char end_of_line = '\n')
+        : text_(text), line_(first_line), end_of_line_(end_of_line) {}
 
     /// The next word; empty at the end.
     std::string_view next();
@@ -27,7 +28,17 @@ class Words {
     std::string_view text_;
     std::size_t place_ = 0;
     std::uint64_t line_;
+    char end_of_line_;
 };
+
+/// What ends the lines of a text: \n, which may follow \r, or, as on the first Macintoshes, \r.
+char end_of_line(std::string_view text);
+
+/// Whether bytes from the start of a file are those of a text.
+bool is_text(std::string_view start);
+
+/// Whether the two are alike but for capitals of ASCII.
+bool same_word(std::string_view a, std::string_view b);
 
 /// A coordinate. Unlike parse_double this takes nan, inf and a leading +, which exporters write;
 /// what is too large to be a number is infinite.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wavefront OBJ: v, vn, f and o are read; f may be a polygon and count from the end.
 #include <asperity/core/parse_number.h>
+#include <asperity/formats/models/far_coordinates.h>
 #include <asperity/formats/models/model_formats.h>
 #include <asperity/formats/models/model_text.h>
 #include <asperity/formats/models/polygon.h>
@@ -70,16 +71,24 @@ class ObjReader {
         : source_(source), text_(std::move(text)), objects_(1) {}
 
     Model read() {
-        Words lines(text_);
+        const std::string_view text = without_byte_order_mark(text_, source_.path);
+        Words lines(text, 1, end_of_line(text));
         while (lines.left() > 0) read_statement(lines);
         check_indices(used_positions_, positions_.size(), "vertex");
         check_indices(used_normals_, normals_.size(), "normal");
         check_indices(used_textures_, textures_, "texture coordinate");
+        Extent extent;
+        for (const Object& object : objects_) {
+            for (const Corner& corner : object.corners) extent.add(positions_[corner.position]);
+        }
+        const Vec3 origin = extent.origin();
         Model model;
         for (const Object& object : objects_) {
-            if (!object.ends.empty()) add_mesh(model, make_mesh(object));
+            if (!object.ends.empty()) add_mesh(model, make_mesh(object, origin), origin);
         }
         check_limits(model, source_);
+        if (std::string far = remark_on(extent); !far.empty()) remark(std::move(far));
+        if (rough_polygons_ > 0) remark(remark_on_rough_polygons(rough_polygons_));
         return model;
     }
 
@@ -131,15 +140,17 @@ class ObjReader {
                                in_quotes(what)));
     }
 
-    void read_triple(Words& words, std::vector<Vec3f>& triples, const char* what) {
-        std::array<float, 3> xyz{};
-        for (float& value : xyz) {
+    template <typename Triple>
+    void read_triple(Words& words, std::vector<Triple>& triples, const char* what) {
+        using Number = decltype(Triple::x);
+        std::array<Number, 3> xyz{};
+        for (Number& value : xyz) {
             const std::string_view word = words.next();
             const auto number = parse_coordinate(word);
             if (!number)
                 fail(word.empty() ? fmt::format("a {} needs three numbers", what)
                                   : fmt::format("{} is not a number", in_quotes(word)));
-            value = static_cast<float>(*number);
+            value = static_cast<Number>(*number);
         }
         if (triples.size() >= kNone) fail(fmt::format("too many of: {}", what));
         triples.push_back({xyz[0], xyz[1], xyz[2]});
@@ -159,14 +170,15 @@ class ObjReader {
             fail(fmt::format("more than {} triangles", source_.limits.triangles));
     }
 
-    /// "v", "v/t", "v//n" or "v/t/n".
+    /// "v", "v/t", "v//n" or "v/t/n"; some programs leave separators with nothing behind them.
     Corner read_corner(std::string_view word) {
         const std::vector<std::string_view> parts = split(word, '/');
         if (parts.size() > 3) fail(fmt::format("{} is not a corner", in_quotes(word)));
         Corner corner;
         corner.position = index(parts[0], positions_.size(), used_positions_);
         if (parts.size() >= 2 && !parts[1].empty()) index(parts[1], textures_, used_textures_);
-        if (parts.size() == 3) corner.normal = index(parts[2], normals_.size(), used_normals_);
+        if (parts.size() == 3 && !parts[2].empty())
+            corner.normal = index(parts[2], normals_.size(), used_normals_);
         return corner;
     }
 
@@ -208,21 +220,22 @@ class ObjReader {
 
     /// Vertices are those of the file that the object uses, doubled where corners differ in their
     /// normal.
-    TriangleMesh make_mesh(const Object& object) const {
+    TriangleMesh make_mesh(const Object& object, Vec3 origin) {
         TriangleMesh mesh;
         mesh.name = object.name;
         const bool has_normals = std::all_of(object.corners.begin(), object.corners.end(),
                                              [](const Corner& c) { return c.normal != kNone; });
         std::unordered_map<std::uint64_t, std::uint32_t> vertices;
+        std::vector<Vec3> positions;  // of the vertices, as the file has them
         std::vector<std::uint32_t> indices;
         indices.reserve(object.corners.size());
         for (const Corner& corner : object.corners) {
             const std::uint32_t normal = has_normals ? corner.normal : kNone;
             const std::uint64_t key = (std::uint64_t{normal} << 32) | corner.position;
             const auto [vertex, is_new] =
-                vertices.try_emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
+                vertices.try_emplace(key, static_cast<std::uint32_t>(positions.size()));
             if (is_new) {
-                mesh.positions.push_back(positions_[corner.position]);
+                positions.push_back(positions_[corner.position]);
                 if (has_normals) mesh.normals.push_back(normals_[normal]);
             }
             indices.push_back(vertex->second);
@@ -230,10 +243,12 @@ class ObjReader {
         mesh.triangles.reserve(object.triangles);
         std::size_t begin = 0;
         for (const std::size_t end : object.ends) {
-            cut_polygon(std::span(indices).subspan(begin, end - begin), mesh.positions,
-                        mesh.triangles);
+            if (!cut_polygon(std::span(indices).subspan(begin, end - begin), positions,
+                             mesh.triangles))
+                ++rough_polygons_;
             begin = end;
         }
+        for (const Vec3 p : positions) mesh.positions.push_back(relative_to(origin, p));
         return mesh;
     }
 
@@ -244,18 +259,40 @@ class ObjReader {
     ModelSource& source_;
     std::string text_;
     std::uint64_t line_ = 0;
-    std::vector<Vec3f> positions_, normals_;
+    std::vector<Vec3> positions_;
+    std::vector<Vec3f> normals_;
     std::size_t textures_ = 0;
     std::vector<Object> objects_;
-    std::uint64_t triangles_ = 0;
+    std::uint64_t triangles_ = 0, rough_polygons_ = 0;
     LargestIndex used_positions_, used_normals_, used_textures_;
     std::set<std::string> unknown_;
 };
 
-}  // namespace
-
 Model read_obj(ModelSource& source) {
     return ObjReader(source, read_text_file(source.path, source.limits.file_bytes)).read();
+}
+
+/// A text whose first statement is one of OBJ.
+bool is_obj(const FileStart& start) {
+    std::string_view text = start.bytes;
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    if (!is_text(text)) return false;
+    constexpr std::array kFirst = {"v", "vn", "vt", "f", "o", "g", "s", "mtllib", "usemtl"};
+    Words lines(text, 1, end_of_line(text));
+    while (lines.left() > 0) {
+        Words words(lines.rest_of_line());
+        const std::string_view what = words.next();
+        if (what.empty() || what.starts_with('#')) continue;
+        return !words.next().empty() &&
+               std::find(kFirst.begin(), kFirst.end(), what) != kFirst.end();
+    }
+    return false;
+}
+
+}  // namespace
+
+ModelFormat obj_format() {
+    return {"Wavefront OBJ", {".obj"}, is_obj, read_obj};
 }
 
 }  // namespace asperity::io::detail

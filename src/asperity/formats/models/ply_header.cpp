@@ -34,7 +34,10 @@ constexpr std::array<TypeName, 8> kTypes = {{{"char", "int8", PlyType::Int8},
 class HeaderReader {
   public:
     HeaderReader(std::string_view file, const std::string& path)
-        : file_(file), path_(path), lines_(file.substr(0, kMostHeaderBytes)) {}
+        : file_(file),
+          path_(path),
+          lines_(file.substr(0, kMostHeaderBytes), 1,
+                 end_of_line(file.substr(0, kMostHeaderBytes))) {}
 
     PlyHeader read() {
         if (next_line() != "ply") fail("not a PLY file (it does not start with 'ply')");
@@ -43,6 +46,7 @@ class HeaderReader {
         if (!has_format_) fail("the header names no format");
         header_.bytes = std::min(file_.size(), kMostHeaderBytes) - lines_.left();
         header_.lines = lines_.line() - 1;
+        header_.end_of_line = end_of_line(file_.substr(0, kMostHeaderBytes));
         check_sizes();
         return std::move(header_);
     }

@@ -38,6 +38,7 @@ struct PlyHeader {
     std::vector<PlyElement> elements;
     std::size_t bytes = 0;    ///< that it takes in the file
     std::uint64_t lines = 0;  ///< as well
+    char end_of_line = '\n';
 };
 
 /// Throws Error(InvalidInput, "path:line"), also when the elements claim more than the file can

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stanford PLY, as text or binary: the elements vertex and face are read.
 #include <asperity/core/parse_number.h>
+#include <asperity/formats/models/far_coordinates.h>
 #include <asperity/formats/models/model_formats.h>
 #include <asperity/formats/models/model_text.h>
 #include <asperity/formats/models/ply_header.h>
@@ -31,7 +32,7 @@ class Values {
         : body_(file.substr(header.bytes)),
           start_(header.bytes),
           encoding_(header.encoding),
-          words_(body_, header.lines + 1),
+          words_(body_, header.lines + 1, header.end_of_line),
           path_(path) {}
 
     double next(PlyType type) {
@@ -102,7 +103,7 @@ class Values {
 
 class PlyReader {
   public:
-    PlyReader(const ModelSource& source, std::string_view file)
+    PlyReader(ModelSource& source, std::string_view file)
         : source_(source),
           header_(read_ply_header(file, source.path)),
           values_(file, header_, source.path) {}
@@ -117,13 +118,25 @@ class PlyReader {
                 skip(element);
         }
         Model model;
-        if (!mesh_.triangles.empty()) add_mesh(model, std::move(mesh_));
+        if (mesh_.triangles.empty()) return model;
+        Extent extent;
+        for (const auto& triangle : mesh_.triangles) {
+            for (const std::uint32_t v : triangle) extent.add(positions_[v]);
+        }
+        const Vec3 origin = extent.origin();
+        mesh_.positions.reserve(positions_.size());
+        for (const Vec3 p : positions_) mesh_.positions.push_back(relative_to(origin, p));
+        add_mesh(model, std::move(mesh_), origin);
+        if (std::string far = remark_on(extent); !far.empty())
+            source_.remarks.push_back(std::move(far));
+        if (rough_polygons_ > 0)
+            source_.remarks.push_back(remark_on_rough_polygons(rough_polygons_));
         return model;
     }
 
   private:
     void read_vertices(const PlyElement& element) {
-        if (!mesh_.positions.empty()) values_.fail("a second element 'vertex'");
+        if (!positions_.empty()) values_.fail("a second element 'vertex'");
         if (element.count > std::numeric_limits<std::uint32_t>::max())
             values_.fail("more vertices than 32 bits can count");
         const std::array<int, 6> places = {element.find("x"),  element.find("y"),
@@ -132,18 +145,19 @@ class PlyReader {
         if (std::min({places[0], places[1], places[2]}) < 0)
             values_.fail("the vertices have no x, y and z");
         const bool has_normals = std::min({places[3], places[4], places[5]}) >= 0;
-        mesh_.positions.reserve(element.count);
+        positions_.reserve(element.count);
         if (has_normals) mesh_.normals.reserve(element.count);
         for (std::uint64_t v = 0; v < element.count; ++v) {
-            std::array<float, 6> found{};
+            std::array<double, 6> found{};
             for (std::size_t i = 0; i < element.properties.size(); ++i) {
                 const double value = read_value(element.properties[i]);
                 for (std::size_t k = 0; k < 6; ++k) {
-                    if (places[k] == static_cast<int>(i)) found[k] = static_cast<float>(value);
+                    if (places[k] == static_cast<int>(i)) found[k] = value;
                 }
             }
-            mesh_.positions.push_back({found[0], found[1], found[2]});
-            if (has_normals) mesh_.normals.push_back({found[3], found[4], found[5]});
+            positions_.push_back({found[0], found[1], found[2]});
+            if (has_normals)
+                mesh_.normals.push_back(relative_to({}, {found[3], found[4], found[5]}));
         }
     }
 
@@ -171,14 +185,14 @@ class PlyReader {
         polygon_.clear();
         for (std::uint64_t k = 0; k < corners; ++k) {
             const double index = values_.next(property.type);
-            const auto vertices = static_cast<double>(mesh_.positions.size());
+            const auto vertices = static_cast<double>(positions_.size());
             // Written so that a NaN is refused as well.
             if (!(index >= 0 && index < vertices) || index != std::floor(index))
                 values_.fail(fmt::format("a face refers to vertex {}, the file has {}", index,
-                                         mesh_.positions.size()));
+                                         positions_.size()));
             polygon_.push_back(static_cast<std::uint32_t>(index));
         }
-        cut_polygon(polygon_, mesh_.positions, mesh_.triangles);
+        if (!cut_polygon(polygon_, positions_, mesh_.triangles)) ++rough_polygons_;
     }
 
     std::uint64_t list_length(const PlyProperty& property) {
@@ -203,18 +217,30 @@ class PlyReader {
         }
     }
 
-    const ModelSource& source_;
+    ModelSource& source_;
     PlyHeader header_;
     Values values_;
-    TriangleMesh mesh_;
+    std::vector<Vec3> positions_;
+    TriangleMesh mesh_;  ///< its positions come last
     std::vector<std::uint32_t> polygon_;
+    std::uint64_t rough_polygons_ = 0;
 };
-
-}  // namespace
 
 Model read_ply(ModelSource& source) {
     const std::string file = read_text_file(source.path, source.limits.file_bytes);
-    return PlyReader(source, file).read();
+    return PlyReader(source, without_byte_order_mark(file, source.path)).read();
+}
+
+bool is_ply(const FileStart& start) {
+    std::string_view bytes = start.bytes;
+    if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
+    return bytes.starts_with("ply\n") || bytes.starts_with("ply\r");
+}
+
+}  // namespace
+
+ModelFormat ply_format() {
+    return {"Stanford PLY", {".ply"}, is_ply, read_ply};
 }
 
 }  // namespace asperity::io::detail
