@@ -6,11 +6,13 @@ namespace asperity::io {
 // Each stands in the file of its name.
 BsdfFormat layers_exr_format();
 BsdfFormat layers_csv_format();
+BsdfFormat rgl_format();
 
 std::vector<BsdfFormat> builtin_formats() {
     return {
         layers_exr_format(),
         layers_csv_format(),
+        rgl_format(),
     };
 }
 

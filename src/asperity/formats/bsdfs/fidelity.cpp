@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/core/directions.h>
+#include <asperity/core/error.h>
+#include <asperity/formats/bsdfs/fidelity.h>
+#include <asperity/measured/compare.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace asperity::io {
+namespace {
+
+constexpr double kLastAngle = 85;  // [deg]
+
+/// Red, green and blue of a file of a grey source are alike: one of them is compared.
+class OneChannel final : public Bsdf {
+  public:
+    explicit OneChannel(const Bsdf& bsdf) : bsdf_(bsdf) {}
+    int channels() const override { return 1; }
+    std::string name() const override { return bsdf_.name(); }
+    void eval(Vec3 wi, Vec3 wo, std::span<double> f) const override {
+        std::array<double, kMaxBsdfChannels> values{};
+        const std::size_t n = static_cast<std::size_t>(bsdf_.channels());
+        bsdf_.eval(wi, wo, std::span(values).first(n));
+        f[0] = 0;
+        for (std::size_t c = 0; c < n; ++c) f[0] += values[c] / static_cast<double>(n);
+    }
+    std::optional<BsdfSample> sample(Vec3 wi, double u1, double u2) const override {
+        return bsdf_.sample(wi, u1, u2);
+    }
+    double pdf(Vec3 wi, Vec3 wo) const override { return bsdf_.pdf(wi, wo); }
+    bool isotropic() const override { return bsdf_.isotropic(); }
+
+  private:
+    const Bsdf& bsdf_;
+};
+
+Comparison comparison_of(const ExportSource& source, const Bsdf& file) {
+    if (source.measurement()) return compare(*source.measurement(), file, source.threads());
+    Experiment experiment = source.experiment();
+    return compare(source.bsdf(), file, experiment, source.threads());
+}
+
+}  // namespace
+
+Fidelity fidelity_of(const ExportSource& source, const BsdfFormat& format,
+                     const std::string& path) {
+    if (!format.read) throw Error(ErrorCode::Usage, "this format is not read back", format.name);
+    const std::unique_ptr<Bsdf> file = format.read(path);
+    const bool as_grey = source.channels() != file->channels();
+    const Comparison comparison =
+        as_grey ? comparison_of(source, OneChannel(*file)) : comparison_of(source, *file);
+
+    Fidelity result;
+    for (const LayerComparison& layer : comparison.layers) {
+        if (degrees(layer.theta_i) >= kLastAngle || !(layer.albedo_a > 0)) continue;
+        const Fidelity::LayerFidelity f = {layer.theta_i, layer.phi_i, layer.l1 / layer.albedo_a,
+                                           layer.l1_noise / layer.albedo_a,
+                                           -layer.albedo_difference};
+        result.layers.push_back(f);
+        result.mean_l1 += f.l1;
+        result.mean_noise += f.noise;
+        if (f.l1 > result.worst_l1) {
+            result.worst_l1 = f.l1;
+            result.worst_theta_i = f.theta_i;
+        }
+        if (std::abs(f.albedo_difference) > std::abs(result.max_albedo_difference))
+            result.max_albedo_difference = f.albedo_difference;
+    }
+    const double count = std::max(1.0, static_cast<double>(result.layers.size()));
+    result.mean_l1 /= count;
+    result.mean_noise /= count;
+    return result;
+}
+
+std::string to_text(const Fidelity& f) {
+    if (f.layers.empty()) return "fidelity: no layer below 85 degrees to compare";
+    return fmt::format(
+        "read back: L1 of f cos {:.2f} % (mean of {} layers below 85°), worst {:.2f} % at {:.4g}°, "
+        "albedo {:+.4f} at most; noise of the data alone {:.2f} %",
+        100 * f.mean_l1, f.layers.size(), 100 * f.worst_l1, degrees(f.worst_theta_i),
+        f.max_albedo_difference, 100 * f.mean_noise);
+}
+
+}  // namespace asperity::io
