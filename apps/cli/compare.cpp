@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // asperity compare: how far two BRDFs, measured or analytic, lie apart.
+#include "brdf_argument.h"
 #include "console.h"
 #include "help.h"
 #include "options.h"
@@ -8,7 +9,6 @@
 #include "table.h"
 #include "verbs.h"
 
-#include <asperity/bsdf/spec.h>
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
 #include <asperity/core/run.h>
@@ -19,7 +19,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -28,7 +27,7 @@ namespace asperity::cli {
 namespace {
 
 constexpr const char* kClosing =
-    "A and B are result files or models:\n"
+    "A and B are result files, files of BSDFs (asperity export --help) or models:\n"
     "  lambert:albedo=0.5\n"
     "  cook-torrance:roughness=0.4,metallic=1,albedo=1/0.8/0.3,k=direct|ibl\n"
     "  ggx:alpha=0.3,alpha_y=0.1,masking=correlated|separable,material=Au\n"
@@ -52,17 +51,9 @@ struct Side {
 
 Side open_side(const std::string& text) {
     Side side;
-    if (is_brdf_spec(text)) {
-        side.model = parse_brdf_spec(text);
-        return side;
-    }
-    std::error_code ignored;
-    if (!std::filesystem::exists(text, ignored)) {
-        throw Error(ErrorCode::InputOutput,
-                    "there is no such file, and no such model (lambert, cook-torrance, ggx, "
-                    "beckmann)",
-                    text);
-    }
+    side.model = open_brdf(text, io::BsdfFormats());
+    if (side.model) return side;
+    check_brdf_exists(text);
     side.measurement = std::make_unique<Measurement>(io::load_measurement(text));
     return side;
 }

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // asperity export: a result as files and images other programs read.
+#include "brdf_argument.h"
 #include "console.h"
 #include "help.h"
 #include "options.h"
 #include "output_path.h"
+#include "report_json.h"
 #include "verbs.h"
 
+#include <asperity/core/directions.h>
 #include <asperity/core/error.h>
 #include <asperity/core/run.h>
 #include <asperity/formats/bsdfs/bsdf_format.h>
+#include <asperity/formats/bsdfs/fidelity.h>
 #include <asperity/formats/results/result_file.h>
 #include <asperity/pictures/pictures.h>
 
@@ -16,6 +20,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -28,6 +33,8 @@ constexpr const char* kClosing =
     "  asperity export metal.asperity -o layers.exr     (all layers, one EXR part each, f in "
     "1/sr)\n"
     "  asperity export metal.asperity -o table.csv --format layers-csv\n"
+    "  asperity export metal.asperity -o metal.bsdf --max-error 2%   (for Mitsuba; read back)\n"
+    "  asperity export ggx:alpha=0.3 -o ggx.bsdf --format rgl:colour=spectral\n"
     "  asperity export metal.asperity -o pictures/      (a PNG per layer and sheet.png)\n"
     "  asperity export metal.asperity -o sheet.png --projection disk --colour-map viridis\n";
 
@@ -47,7 +54,8 @@ Value choose(const std::string& option, const std::string& name,
 class ExportVerb {
   public:
     explicit ExportVerb(CLI::App& app) {
-        file_ = add_text(app, "file", "FILE", "a result of asperity simulate", "");
+        file_ = add_text(app, "file", "FILE",
+                         "a result of asperity simulate, a model or a file of a BSDF", "");
         output_ = add_text(app, "-o,--output", "FILE | X.png | FOLDER/",
                            "a file in one of the formats, one sheet of all layers, or a folder of "
                            "pictures",
@@ -69,6 +77,11 @@ class ExportVerb {
         channel_ = add_text(app, "--channel", "NAME", "PNG: one channel, by name or number from 0",
                             kOutput)
                        ->default_str("mean of all");
+        max_error_ =
+            add_text(app, "--max-error", "E",
+                     "fail when the mean L1 of what is read back is larger: 0.02 or 2%", kOutput)
+                ->default_str("never");
+        app.add_flag("--json", json_, "print one JSON object: the fidelity")->group(kOutput);
         app.add_flag("--quiet", quiet_, "do not name the files written")->group(kOutput);
         set_help(app, "export FILE -o X.exr | X.csv | X.png | FOLDER/", formats_text() + kClosing);
     }
@@ -83,6 +96,8 @@ class ExportVerb {
         if (!wants_pictures(path)) return write_file(path);
         if (format_->count() > 0)
             throw Error(ErrorCode::Usage, "pictures have no format", "format");
+        if (max_error_->count() > 0 || json_)
+            throw Error(ErrorCode::Usage, "is for files of a format", json_ ? "json" : "max-error");
         return write_pictures(path);
     }
 
@@ -110,14 +125,67 @@ class ExportVerb {
             format.options,
             colon == spec.npos ? std::string_view{} : std::string_view(spec).substr(colon + 1));
         check_output_file(path);
-        const auto measurement =
-            std::make_shared<const Measurement>(io::load_measurement(text_of(file_)));
-        const io::ExportSource source(measurement, Run().threads());
-        const std::vector<std::string> remarks = format.write(source, options, path);
-        const Talk say(quiet_, false);
+        const double most = max_error();
+        const io::ExportSource source = open_source();
+        std::vector<std::string> remarks = source.remarks();
+        for (std::string& remark : format.write(source, options, path))
+            remarks.push_back(std::move(remark));
+        const Talk say(quiet_ || json_, false);
         say("wrote " + path + "\n");
-        for (const std::string& remark : remarks) say("  " + remark + "\n");
+        if (format.read) {
+            const io::Fidelity fidelity = io::fidelity_of(source, format, path);
+            say(io::to_text(fidelity) + "\n");
+            for (const std::string& remark : remarks) say("  " + remark + "\n");
+            if (json_) write_json(json_of(path, format, fidelity, remarks));
+            if (fidelity.mean_l1 > most) {
+                throw Error(ErrorCode::InvalidInput,
+                            fmt::format("holds the data within {:.3g} % only, --max-error asks for "
+                                        "{:.3g} %",
+                                        100 * fidelity.mean_l1, 100 * most),
+                            path);
+            }
+        } else if (json_) {
+            write_json({{"file", path}, {"format", format.name}, {"remarks", remarks}});
+        }
         return 0;
+    }
+
+    /// The mean L1 that is still taken.
+    double max_error() const {
+        if (max_error_->count() == 0) return std::numeric_limits<double>::infinity();
+        std::string text = text_of(max_error_);
+        const bool percent = text.ends_with('%');
+        if (percent) text.pop_back();
+        return parse_positive("max-error", text) * (percent ? 0.01 : 1.0);
+    }
+
+    /// A result of ours, a model, or a file of a BSDF.
+    io::ExportSource open_source() const {
+        const int threads = Run().threads();
+        const std::string text = text_of(file_);
+        if (auto bsdf = open_brdf(text, formats_))
+            return {std::shared_ptr<const Bsdf>(std::move(bsdf)), Experiment{}, threads};
+        return {std::make_shared<const Measurement>(io::load_measurement(text)), threads};
+    }
+
+    static Json json_of(const std::string& path, const io::BsdfFormat& format,
+                        const io::Fidelity& fidelity, const std::vector<std::string>& remarks) {
+        Json json = {{"file", path},
+                     {"format", format.name},
+                     {"mean_l1", fidelity.mean_l1},
+                     {"worst_l1", fidelity.worst_l1},
+                     {"worst_theta_i_deg", degrees(fidelity.worst_theta_i)},
+                     {"mean_noise", fidelity.mean_noise},
+                     {"max_albedo_difference", fidelity.max_albedo_difference},
+                     {"remarks", remarks},
+                     {"layers", Json::array()}};
+        for (const auto& layer : fidelity.layers)
+            json["layers"].push_back({{"theta_i_deg", degrees(layer.theta_i)},
+                                      {"phi_i_deg", degrees(layer.phi_i)},
+                                      {"l1", layer.l1},
+                                      {"noise", layer.noise},
+                                      {"albedo_difference", layer.albedo_difference}});
+        return json;
     }
 
     int write_pictures(const std::string& path) const {
@@ -186,8 +254,9 @@ class ExportVerb {
 
     io::BsdfFormats formats_;
     CLI::Option *file_ = nullptr, *output_ = nullptr, *format_ = nullptr, *colour_map_ = nullptr,
-                *scale_ = nullptr, *decades_ = nullptr, *projection_ = nullptr, *channel_ = nullptr;
-    bool quiet_ = false;
+                *scale_ = nullptr, *max_error_ = nullptr, *decades_ = nullptr,
+                *projection_ = nullptr, *channel_ = nullptr;
+    bool quiet_ = false, json_ = false;
 };
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_materials.h"
 
+#include "brdf_argument.h"
+
 #include <asperity/bsdf/spec.h>
 #include <asperity/core/error.h>
 #include <asperity/formats/results/experiment_text.h>
@@ -10,8 +12,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 namespace asperity::cli {
 
 namespace {
@@ -20,6 +20,7 @@ constexpr std::size_t kMostBrdfs = 2;  ///< left and right of the split
 
 std::shared_ptr<const Bsdf> load_brdf(const std::string& text, Run& run, io::Provenance& origin) {
     if (is_brdf_spec(text)) return parse_brdf_spec(text);
+    if (const auto file = open_brdf(text, io::BsdfFormats())) return bake_brdf(*file, run);
     const Measurement m = io::load_measurement(text);
     if (m.channels() != 1 && m.channels() != 3) {
         throw Error(ErrorCode::InvalidInput,
@@ -41,14 +42,8 @@ void check_materials(const RenderOptions& options) {
         throw Error(ErrorCode::Usage, fmt::format("given {} times, at most twice", brdfs.size()),
                     "brdf");
     for (const std::string& text : brdfs) {
-        if (is_brdf_spec(text)) {
-            parse_brdf_spec(text);
-        } else if (std::error_code ignored; !std::filesystem::exists(text, ignored)) {
-            throw Error(ErrorCode::InputOutput,
-                        "there is no such file, and no such model (lambert, cook-torrance, ggx, "
-                        "beckmann)",
-                        text);
-        }
+        if (is_brdf_spec(text)) parse_brdf_spec(text);
+        check_brdf_exists(text);
     }
     if (brdfs.size() < kMostBrdfs && options.given("split"))
         throw Error(ErrorCode::Usage, "needs a second --brdf", "split");
