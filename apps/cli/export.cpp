@@ -176,6 +176,8 @@ class ExportVerb {
                      {"worst_l1", fidelity.worst_l1},
                      {"worst_theta_i_deg", degrees(fidelity.worst_theta_i)},
                      {"mean_noise", fidelity.mean_noise},
+                     {"mean_l1_isotropic",
+                      fidelity.mean_isotropy < 0 ? Json() : Json(fidelity.mean_isotropy)},
                      {"max_albedo_difference", fidelity.max_albedo_difference},
                      {"remarks", remarks},
                      {"layers", Json::array()}};

@@ -7,12 +7,14 @@ namespace asperity::io {
 BsdfFormat layers_exr_format();
 BsdfFormat layers_csv_format();
 BsdfFormat rgl_format();
+BsdfFormat merl_format();
 
 std::vector<BsdfFormat> builtin_formats() {
     return {
         layers_exr_format(),
         layers_csv_format(),
         rgl_format(),
+        merl_format(),
     };
 }
 

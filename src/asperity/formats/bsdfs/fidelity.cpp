@@ -71,16 +71,28 @@ Fidelity fidelity_of(const ExportSource& source, const BsdfFormat& format,
     const double count = std::max(1.0, static_cast<double>(result.layers.size()));
     result.mean_l1 /= count;
     result.mean_noise /= count;
+    if (source.measurement() && file->isotropic()) {
+        const Comparison best = comparison_of(source, source.isotropic_bsdf());
+        double sum = 0;
+        for (const LayerComparison& layer : best.layers)
+            if (degrees(layer.theta_i) < kLastAngle && layer.albedo_a > 0)
+                sum += layer.l1 / layer.albedo_a;
+        result.mean_isotropy = sum / count;
+    }
     return result;
 }
 
 std::string to_text(const Fidelity& f) {
     if (f.layers.empty()) return "fidelity: no layer below 85 degrees to compare";
+    const std::string isotropy =
+        f.mean_isotropy < 0 ? ""
+                            : fmt::format(", of the data made isotropic and smooth {:.2f} %",
+                                          100 * f.mean_isotropy);
     return fmt::format(
         "read back: L1 of f cos {:.2f} % (mean of {} layers below 85°), worst {:.2f} % at {:.4g}°, "
-        "albedo {:+.4f} at most; noise of the data alone {:.2f} %",
+        "albedo {:+.4f} at most; noise of the data alone {:.2f} %{}",
         100 * f.mean_l1, f.layers.size(), 100 * f.worst_l1, degrees(f.worst_theta_i),
-        f.max_albedo_difference, 100 * f.mean_noise);
+        f.max_albedo_difference, 100 * f.mean_noise, isotropy);
 }
 
 }  // namespace asperity::io

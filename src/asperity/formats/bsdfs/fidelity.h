@@ -22,8 +22,10 @@ struct Fidelity {
     std::vector<LayerFidelity> layers;
     double mean_l1 = 0, worst_l1 = 0, worst_theta_i = 0;
     double mean_noise = 0;
+    /// Mean L1 of the source against what it is for a format without azimuths, isotropic and
+    /// mirrored: no isotropic file can be closer. Negative: not asked, the file has azimuths.
+    double mean_isotropy = -1;
     double max_albedo_difference = 0;  ///< the one farthest from 0, with its sign
-    BsdfFormat::Remarks remarks;       ///< what the format cannot hold, what was done first
 };
 
 /// Reads `path` back and compares. A source that the format can only hold as an isotropic one is
