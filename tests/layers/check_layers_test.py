@@ -49,6 +49,16 @@ class Layers(unittest.TestCase):
                 self.assertEqual(len(self.complaints_about(name, f"<asperity/{target}/a.h>")), 1)
                 (self.root / name).unlink()
 
+    def test_files_are_written_through_one_door(self):
+        for line in ("std::ofstream out(path);", "QSaveFile file(path);", "std::fopen(p, \"wb\");",
+                     "Imf::OutputFile image(path.c_str(), header);", "picture.save(path, \"PNG\");"):
+            self.write("src/asperity/formats/heights/b.cpp", line)
+            self.assertEqual(len(check(self.root)[0]), 1, line)
+        for line in ("picture.save(&buffer, \"PNG\");", "// no std::ofstream here",
+                     "Imf::OutputFile image(stream, header);"):
+            self.write("src/asperity/formats/heights/b.cpp", line)
+            self.assertEqual(check(self.root)[0], [], line)
+
     def test_spaces_do_not_hide_an_include(self):
         self.write("src/asperity/core/b.h", "  #  include   <asperity/formats/a.h>\n")
         self.assertEqual(len(check(self.root)[0]), 1)

@@ -5,6 +5,7 @@
 #include "model_scene.h"
 #include "plots_panel.h"
 #include "preferences.h"
+#include "save_bytes.h"
 #include "surface_panel.h"
 #include "surface_scene.h"
 
@@ -153,8 +154,8 @@ void save_picture(MainWindow& window) {
             attempt(window, [&] {
                 if (!surface)
                     window.model_scene().save_picture(path);
-                else if (!window.surface_scene().viewport().grab_picture().save(path, "PNG"))
-                    throw Error(ErrorCode::InputOutput, "cannot be written", file_name(path));
+                else
+                    save_bytes(png_bytes(window.surface_scene().viewport().grab_picture()), path);
             });
         });
 }

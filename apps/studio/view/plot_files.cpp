@@ -2,6 +2,7 @@
 #include "plot_files.h"
 
 #include "plot_canvas.h"
+#include "save_bytes.h"
 
 #include <asperity/core/error.h>
 
@@ -9,7 +10,6 @@
 
 #include <QBuffer>
 #include <QFileInfo>
-#include <QSaveFile>
 #include <QSvgGenerator>
 
 #include <cmath>
@@ -22,11 +22,7 @@ namespace {
 
 QByteArray png_data(const Plot& plot, QSize size, const PlotStyle& style) {
     constexpr double kPixelsToOne = 2;
-    QByteArray data;
-    QBuffer buffer(&data);
-    buffer.open(QIODevice::WriteOnly);
-    plot_image(plot, size, kPixelsToOne, style).save(&buffer, "PNG");
-    return data;
+    return png_bytes(plot_image(plot, size, kPixelsToOne, style));
 }
 
 QByteArray svg_data(const Plot& plot, QSize size, const PlotStyle& style) {
@@ -81,9 +77,7 @@ void write_plot(const Plot& plot, QSize size, const PlotStyle& style, const QStr
         data = csv_text(plot.table());
     else
         throw Error(ErrorCode::Usage, "a plot is saved as .png, .svg or .csv", path.toStdString());
-    QSaveFile file(path);
-    if (!file.open(QIODevice::WriteOnly) || file.write(data) != data.size() || !file.commit())
-        throw Error(ErrorCode::InputOutput, file.errorString().toStdString(), path.toStdString());
+    save_bytes(data, path);
 }
 
 }  // namespace asperity::studio

@@ -104,20 +104,27 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
         if (written < 0 && errno == EINTR) continue;
-        if (written < 0) fail("cannot write");
+        if (written == 0) errno = EIO;
+        if (written <= 0) fail("cannot write");
         bytes = bytes.subspan(static_cast<std::size_t>(written));
-        written_ += written;
+        position_ += written;
     }
-    if (!direct_ && written_ - started_ >= kStartBytes) start_writing_back();
+    if (!direct_ && position_ - started_ >= kStartBytes) start_writing_back();
 }
 
 /// Lets the disk begin with what is there, so that commit() has less to wait for. A hint: what goes
 /// wrong shows when the file is synced.
 void AtomicFile::start_writing_back() {
 #ifdef SYNC_FILE_RANGE_WRITE
-    ::sync_file_range(descriptor_, started_, written_ - started_, SYNC_FILE_RANGE_WRITE);
+    ::sync_file_range(descriptor_, started_, position_ - started_, SYNC_FILE_RANGE_WRITE);
 #endif
-    started_ = written_;
+    started_ = position_;
+}
+
+void AtomicFile::seek(std::uint64_t position) {
+    const auto wanted = static_cast<::off_t>(position);
+    if (::lseek(descriptor_, wanted, SEEK_SET) != wanted) fail("cannot write");
+    position_ = wanted;
 }
 
 void AtomicFile::commit() {

@@ -16,7 +16,8 @@ namespace asperity::io {
 /// was. Destroyed without commit(), the temporary file is removed.
 ///
 /// A device or a FIFO (/dev/stdout, /dev/full) cannot be renamed over: it is written directly.
-/// Every member throws Error(InputOutput, path), with the words of the operating system.
+/// Every member throws Error(InputOutput, path), with the words of the operating system. All files
+/// that the project writes come through here: what goes wrong with a write is never lost.
 class AtomicFile {
   public:
     /// Refuses a folder and a file that may not be written. Follows symbolic links.
@@ -29,9 +30,10 @@ class AtomicFile {
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
 
-    /// The name under which a library that opens its file by itself shall write, instead of calls
-    /// of write(). The file is there already, and empty; the library must close it before commit().
-    const std::string& temporary_path() const { return temporary_; }
+    /// Where the next byte goes, from the beginning.
+    std::uint64_t position() const { return static_cast<std::uint64_t>(position_); }
+    /// Goes there, for a library that fills in tables when it knows them. Not on pipes.
+    void seek(std::uint64_t position);
     const std::string& path() const { return path_; }
 
     /// Puts the file in place. Call once, as the last thing.
@@ -48,8 +50,8 @@ class AtomicFile {
     std::string temporary_;  ///< what is being written; target_ itself when `direct_`
     int descriptor_ = -1;
     bool direct_ = false;
-    std::int64_t written_ = 0;  ///< bytes, by write()
-    std::int64_t started_ = 0;  ///< of them on their way to the disk
+    std::int64_t position_ = 0;
+    std::int64_t started_ = 0;  ///< bytes on their way to the disk
 };
 
 }  // namespace asperity::io

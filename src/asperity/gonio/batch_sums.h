@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <asperity/core/energy.h>
 #include <asperity/gonio/measurement.h>
 #include <asperity/tracing/engines/wide/wide.h>
 
@@ -48,6 +49,11 @@ class BatchSums {
     void escape_counted(std::uint64_t count, const CountedLight& light);
     void truncate(const PerPath<std::int32_t>& paths, std::size_t count, const Weights& weights) {
         settle(truncated_, paths, count, weights);
+    }
+    /// `count` rays never met a facet.
+    void truncate_launched(std::uint64_t count) {
+        for (std::uint64_t& energy : truncated_) energy += count * kRayEnergy;
+        stuck += count;
     }
     void lose_at_edge(const PerPath<std::int32_t>& paths, std::size_t count,
                       const Weights& weights) {

@@ -72,6 +72,7 @@ std::uint64_t Follower::follow_lines(const Scene& scene, const LaunchBatch& batc
     }
     LaunchStripe stripe = batch.stripe(portion);
     while (!scene.tracer.launch(line_, stripe, known, wave_)) follow_launched(scene, sums);
+    sums.truncate_launched(stripe.under_way());
     return std::accumulate(stripe.rays, stripe.rays + stripe.lines, std::uint64_t{0});
 }
 

@@ -2,6 +2,7 @@
 #include <asperity/gonio/launch.h>
 
 #include <asperity/core/directions.h>
+#include <asperity/tracing/scale.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,8 +62,9 @@ std::int32_t split(std::uint64_t coordinate, std::uint32_t cells, double& inside
 std::vector<Incidence> incidences(const IlluminationSettings& s) {
     std::vector<Incidence> list;
     const auto add = [&](int number, double theta_deg, double phi_deg) {
-        list.push_back(
-            {number, radians(theta_deg), s.isotropic ? 0.0 : radians(phi_deg), s.isotropic});
+        const double theta = radians(theta_deg);
+        list.push_back({number, theta < kStraightDown ? 0.0 : theta,
+                        s.isotropic ? 0.0 : radians(phi_deg), s.isotropic});
     };
     if (s.theta_deg.empty()) {
         // Thesis layers by elevation: the last one, normal incidence, is filled first

@@ -11,6 +11,7 @@
 #include <asperity/gonio/known_facets.h>
 #include <asperity/gonio/layer_report.h>
 #include <asperity/gonio/layer_schedule.h>
+#include <asperity/tracing/scale.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,6 +20,7 @@
 #include <deque>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 namespace asperity {
 
@@ -139,6 +141,9 @@ class Gonioreflectometer {
     bool prepare(Measurement& m) {
         try {
             m.surface = statistics(surface_, run_);
+            std::vector<double> angles;
+            for (const LayerInWork& layer : layers_) angles.push_back(layer.light.theta);
+            check_scale(surface_, m.surface.min_height, m.surface.max_height, angles);
             if (listener_.begun) listener_.begun(m);
             tracer_.emplace(surface_, run_);
             return true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/directions.h>
+#include <asperity/core/energy.h>
 #include <asperity/core/error.h>
 #include <asperity/gonio/measure.h>
 #include <asperity/gonio/test_measurements.h>
@@ -150,6 +151,78 @@ TEST(Measure, IsotropicModeSortsByRelativeAzimuth) {
     const int cell = m.detector.cell_of(from_spherical(radians(40), radians(180)));
     EXPECT_EQ(m.energy(m.layers[0], 0, cell), 1.0);
     EXPECT_TRUE(m.notes.empty());
+}
+
+/// A plateau of 16 x 16 cells with a trench along y, two cells wide.
+Heightfield trench(float depth) {
+    Heightfield s = noise(16, 0);
+    for (std::size_t k = 0; k < s.heights.size(); ++k)
+        if (k % 16 == 8 || k % 16 == 9) s.heights[k] = -depth;
+    return s;
+}
+
+// Lines of light of 57,000 cells beside rays that start one by one
+TEST(Measure, LongLinesGiveWhatSingleRaysGive) {
+    Experiment e = small_experiment();
+    e.illumination = {15, {89.9}, {90}, false};
+    e.run.batches = 4;
+    const Measurement lines = measured(trench(100), e);
+    e.run.launch = LaunchPattern::Random;
+    const Measurement single = measured(trench(100), e);
+    const Layer &a = lines.layers[0], &b = single.layers[0];
+    EXPECT_EQ(a.stuck, 0u);
+    // Off the plateau or the ground; off wall, ground and wall
+    for (const std::size_t bounce : {0u, 2u})
+        EXPECT_NEAR(
+            energy_fraction(a.escaped_by_bounce[bounce], a.rays),
+            energy_fraction(b.escaped_by_bounce[bounce], b.rays),
+            5 * std::hypot(a.stderr_albedo_by_bounce[bounce], b.stderr_albedo_by_bounce[bounce]));
+}
+
+TEST(Measure, LightThatNeverLandsIsTruncated) {
+    Experiment e = small_experiment();
+    e.illumination = {15, {89.9}, {90}, false};
+    e.run.batches = 4;
+    e.run.rays = 2000;
+    const Layer layer = measured(trench(10000), e).layers[0];
+    EXPECT_GT(layer.stuck, 0u);
+    EXPECT_EQ(layer.escaped[0] + layer.truncated[0], layer.rays << 32);
+    EXPECT_GE(layer.truncated[0], layer.stuck << 32);
+}
+
+TEST(Measure, AnyAngleAndAnyLevelPlane) {
+    Experiment e = small_experiment();
+    e.illumination.theta_deg = {0, 1e-200, 1e-30, 1e-13, 1e-9, 45, 89.9999999, 89.99999999999999};
+    Heightfield plane = noise(16, 0);
+    for (const float height : {0.0f, 1e15f, -1e15f, 1e-30f, 3e38f}) {
+        std::fill(plane.heights.begin(), plane.heights.end(), height);
+        for (const Layer& layer : measured(plane, e).layers) {
+            EXPECT_EQ(layer.escaped_by_bounce[0], layer.rays << 32)
+                << height << ' ' << degrees(layer.theta_i);
+            EXPECT_EQ(layer.stuck, 0u);
+        }
+    }
+}
+
+TEST(Measure, AsksAboutUnitsInPlaceOfGoingOnForever) {
+    const auto refused = [](float height, double theta_deg) {
+        Heightfield spike = noise(3, 0);
+        spike.heights[4] = height;
+        Experiment e = small_experiment();
+        e.illumination.theta_deg = {theta_deg};
+        try {
+            (void)measured(spike, e);
+        } catch (const Error& error) {
+            return error.code() == ErrorCode::InvalidInput &&
+                   error.message().find("in the same unit") != std::string::npos;
+        }
+        return false;
+    };
+    EXPECT_TRUE(refused(1e9f, 80));
+    EXPECT_TRUE(refused(1e9f, 0));
+    EXPECT_TRUE(refused(1, 89.9999999));
+    EXPECT_FALSE(refused(1, 89.9));
+    EXPECT_FALSE(refused(1000, 80));
 }
 
 TEST(Measure, JitterIsRaysPerCell) {

@@ -145,9 +145,10 @@ inline void compare_point(const Heightfield& s, const FacetPoints& points, std::
                                                      static_cast<double>(points.v[k]) - v));
 }
 
-/// Lines of light of many directions, of `rays` rays each: those of a line land in order, and the
-/// plain tracer follows them one by one.
-inline Agreement follow_lines(const Heightfield& s, int lines, int rays) {
+/// Lines of light, line n along direction(n), of `rays` rays each: those of a line land in order,
+/// and the plain tracer follows them one by one.
+template <class Direction>
+Agreement follow_lines(const Heightfield& s, int lines, int rays, Direction direction) {
     const Tracer plain(s);
     const WideTracer wide(s, 1);
     Agreement sum;
@@ -156,7 +157,7 @@ inline Agreement follow_lines(const Heightfield& s, int lines, int rays) {
     for (int n = 0; n < lines; ++n) {
         const auto number = static_cast<std::uint64_t>(n);
         const auto p = CounterRandom(5, 2).uniform2(number, 0);
-        const Vec3 d = slanted(number);
+        const Vec3 d = direction(number);
         const bool along_x = wide.lines_along_x(d);
         const int first = static_cast<int>((along_x ? s.ny : s.nx) * p[0]);
         LaunchStripe stripe = stripe_of(first, 1, rays, d);
@@ -184,6 +185,11 @@ inline Agreement follow_lines(const Heightfield& s, int lines, int rays) {
         EXPECT_EQ(k, rays);
     }
     return sum;
+}
+
+/// The same of many directions.
+inline Agreement follow_lines(const Heightfield& s, int lines, int rays) {
+    return follow_lines(s, lines, rays, slanted);
 }
 
 inline Heightfield surface_of(const Case& c, int size) {

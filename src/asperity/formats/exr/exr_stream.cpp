@@ -5,11 +5,10 @@
 #include <asperity/formats/exr/exr_stream.h>
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 #include <new>
+#include <optional>
+#include <string>
+#include <utility>
 
 namespace asperity::io {
 
@@ -19,44 +18,55 @@ namespace {
 /// keeps silent about what goes wrong then; this stream remembers.
 class ExrStream : public Imf::OStream {
   public:
-    explicit ExrStream(const std::string& path)
-        : Imf::OStream(path.c_str()), file_(std::fopen(path.c_str(), "wb"), &std::fclose) {
-        note(file_ != nullptr);
-    }
+    explicit ExrStream(AtomicFile& file) : Imf::OStream(file.path().c_str()), file_(file) {}
 
     void write(const char bytes[], int count) override {
-        const auto size = static_cast<std::size_t>(count);
-        if (file_) note(std::fwrite(bytes, 1, size, file_.get()) == size);
-        if (error_ != 0) throw Iex::ErrnoExc(std::strerror(error_));
+        noting([&] {
+            waiting_.append(bytes, static_cast<std::size_t>(count));
+            if (waiting_.size() >= kMostWaiting) flush();
+        });
     }
-    std::uint64_t tellp() override {
-        return file_ ? static_cast<std::uint64_t>(std::ftell(file_.get())) : 0;
-    }
+    std::uint64_t tellp() override { return file_.position() + waiting_.size(); }
     void seekp(std::uint64_t position) override {
-        if (file_) note(std::fseek(file_.get(), static_cast<long>(position), SEEK_SET) == 0);
-        if (error_ != 0) throw Iex::ErrnoExc(std::strerror(error_));
+        noting([&] {
+            flush();
+            file_.seek(position);
+        });
     }
 
-    /// Closes the file. The first error of all, as errno, or 0.
-    int close() {
-        if (file_) note(std::fclose(file_.release()) == 0);
-        return error_;
+    /// Writes what waits, and throws the first error of all.
+    void finish() {
+        if (!error_) flush();
+        if (error_) throw Error(*error_);
     }
 
   private:
-    void note(bool fine) {
-        if (!fine && error_ == 0) error_ = errno != 0 ? errno : EIO;
+    static constexpr std::size_t kMostWaiting = 1 << 16;
+
+    void flush() {
+        const std::string bytes = std::exchange(waiting_, {});
+        file_.write(bytes);
+    }
+    template <class Work>
+    void noting(Work work) {
+        try {
+            if (!error_) work();
+        } catch (const Error& error) {
+            error_ = error;
+        }
+        if (error_) throw Iex::IoExc(error_->message());
     }
 
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
-    int error_ = 0;
+    AtomicFile& file_;
+    std::string waiting_;  ///< OpenEXR writes number by number
+    std::optional<Error> error_;
 };
 
 }  // namespace
 
 void write_exr(const std::string& path, const std::function<void(Imf::OStream&)>& write) {
     AtomicFile file(path);
-    ExrStream stream(file.temporary_path());
+    ExrStream stream(file);
     std::string reason;
     try {
         write(stream);
@@ -65,8 +75,7 @@ void write_exr(const std::string& path, const std::function<void(Imf::OStream&)>
     } catch (const std::exception& error) {  // OpenEXR throws Iex::BaseExc
         reason = error.what();
     }
-    const int failure = stream.close();
-    if (failure != 0) reason = std::strerror(failure);
+    stream.finish();
     if (!reason.empty())
         throw Error(ErrorCode::InputOutput, fmt::format("cannot write the EXR ({})", reason), path);
     file.commit();

@@ -6,9 +6,9 @@
 #include <ImfOutputFile.h>
 #include <asperity/core/error.h>
 #include <asperity/core/parse_number.h>
-#include <asperity/formats/atomic_file.h>
 #include <asperity/formats/exr/exr_errors.h>
 #include <asperity/formats/exr/exr_outline.h>
+#include <asperity/formats/exr/exr_stream.h>
 #include <asperity/formats/heights/height_files.h>
 #include <asperity/formats/read_file.h>
 #include <fmt/format.h>
@@ -67,12 +67,11 @@ Heightfield read_exr_heights(const std::string& path) {
 }
 
 void write_exr_heights(const Heightfield& surface, const std::string& path) {
-    AtomicFile file(path);
-    translating_exr(path, ErrorCode::InputOutput, [&] {
+    write_exr(path, [&](Imf::OStream& stream) {
         Imf::Header header(surface.nx, surface.ny);
         header.compression() = Imf::ZIP_COMPRESSION;
         header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
-        Imf::OutputFile image(file.temporary_path().c_str(), header);
+        Imf::OutputFile image(stream, header);
         Imf::FrameBuffer frame;
         const auto row_bytes = static_cast<std::size_t>(surface.nx) * sizeof(float);
         frame.insert("Y", Imf::Slice::Make(Imf::FLOAT, surface.heights.data(), header.dataWindow(),
@@ -80,7 +79,6 @@ void write_exr_heights(const Heightfield& surface, const std::string& path) {
         image.setFrameBuffer(frame);
         image.writePixels(surface.ny);
     });
-    file.commit();
 }
 
 }  // namespace asperity::io

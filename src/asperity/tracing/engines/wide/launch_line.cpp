@@ -86,14 +86,16 @@ void LaunchLine::add_round() {
         r.lowest_x = std::min(r.lowest_x, v.x);
         r.lowest_y = std::min(r.lowest_y, v.y);
     };
+    std::int32_t cell_x[kEdges], cell_y[kEdges];  // the lowest vertex is known in the end
     const auto add = [&](int n, const Half& half, const Edge& edge) {
         const Vertex o = a_ + half.corner;
         r.edges[n] = edge;
         triangles[n] = {swapped_ ? pack_vertex(o.y, o.x) : pack_vertex(o.x, o.y),
                         half.upper ? -1.0f : 1.0f, static_cast<float>(swapped_ ? -o.w : o.w),
                         static_cast<float>(r.z - o.z)};
-        r.cells[n] = {static_cast<std::int16_t>(o.x - (half.upper ? 1 : 0)),
-                      static_cast<std::int16_t>(o.y - (half.upper ? 1 : 0)), half.upper ? 1 : 0};
+        cell_x[n] = o.x - (half.upper ? 1 : 0);
+        cell_y[n] = o.y - (half.upper ? 1 : 0);
+        r.cells[n].upper = half.upper ? 1 : 0;
     };
     const double per_ab = -1 / step_ab_.w, per_right = -1 / step_x_.w, per_left = 1 / step_y_.w;
     Vertex b = a_ + step_ab_;
@@ -114,6 +116,10 @@ void LaunchLine::add_round() {
         add(n + 1, first_, edge(r, a_, b, per_ab));
     }
     r.sunk = static_cast<float>(r.z - a_.z);
+    for (int n = 0; n < kEdges; ++n) {
+        r.cells[n].x = static_cast<std::int16_t>(cell_x[n] - r.lowest_x);
+        r.cells[n].y = static_cast<std::int16_t>(cell_y[n] - r.lowest_y);
+    }
 }
 
 }  // namespace asperity

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <asperity/core/vec.h>
+#include <asperity/tracing/engines/plain/tracer.h>
 #include <asperity/tracing/engines/wide/padded_heights.h>
 
 #include <cmath>
@@ -26,6 +27,9 @@ class LaunchLine {
     static constexpr int kSteps = 8;
     /// Edges of a round: the one it begins at, and two for each step.
     static constexpr int kEdges = 1 + 2 * kSteps;
+    /// Rays that have not landed after so many rounds do not end, as those that cross
+    /// Tracer::kMaxCrossings lines: some 50 MB.
+    static constexpr std::size_t kMostRounds = Tracer::kMaxCrossings / (2 * kSteps);
 
     /// A triangle that may be hit. Vertices are counted from the cell of the start.
     struct Triangle {
@@ -41,7 +45,8 @@ class LaunchLine {
         std::int32_t left, right;
         float share_left, share_right, sunk;
     };
-    /// The cell of a triangle, counted from the start's cell.
+    /// The cell of a triangle, counted from the lowest vertex of its round: the start's cell may be
+    /// further away than 16 bits can tell.
     struct Cell {
         std::int16_t x, y;
         std::int32_t upper;  ///< 1 for the upper triangle, 0 for the lower one

@@ -38,6 +38,7 @@ PaddedHeights::PaddedHeights(const Heightfield& s, const Run& run)
     pitch_ = kLine * (lines % 2 == 0 ? lines + 1 : lines);
     allocate(heights_, static_cast<std::size_t>(pitch_) * static_cast<std::size_t>(rows), run);
 
+    find_range(s, run);
     const auto source_column = [&](int i) { return mirrored_ ? s.cells_x() - i : i; };
     parallel_for(static_cast<std::size_t>(rows), run.threads(), [&](std::size_t row) {
         throw_if_stopped(run);
@@ -47,12 +48,12 @@ PaddedHeights::PaddedHeights(const Heightfield& s, const Run& run)
         if (periodic_) {
             const int from = wrap(j, s.cells_y());
             for (int k = 0; k < columns; ++k)
-                out[k] = s.at(wrap(source_column(k - kMargin), s.cells_x()), from);
+                out[k] = s.at(wrap(source_column(k - kMargin), s.cells_x()), from) - base_;
         } else if (j >= 0 && j <= cells_y_) {
-            for (int i = 0; i <= cells_x_; ++i) out[i + kMargin] = s.at(source_column(i), j);
+            for (int i = 0; i <= cells_x_; ++i)
+                out[i + kMargin] = s.at(source_column(i), j) - base_;
         }
     });
-    find_range(s, run);
 }
 
 void PaddedHeights::find_range(const Heightfield& s, const Run& run) {
@@ -69,6 +70,13 @@ void PaddedHeights::find_range(const Heightfield& s, const Run& run) {
     });
     min_height_ = *std::min_element(lowest.begin(), lowest.end());
     max_height_ = *std::max_element(highest.begin(), highest.end());
+    // Differences of such heights are exact
+    constexpr double kFar = 64;
+    const double range = double{max_height_} - double{min_height_};
+    const bool far = double{min_height_} > kFar * range || double{-max_height_} > kFar * range;
+    if (far) base_ = min_height_;
+    min_height_ -= base_;
+    max_height_ -= base_;
 }
 
 }  // namespace asperity

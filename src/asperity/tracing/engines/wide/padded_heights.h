@@ -17,6 +17,9 @@ namespace asperity {
 /// `mirrored()` says so; whoever uses it mirrors the x of directions and positions. A tile shorter
 /// than kShortest cells is repeated until it is long enough, so cells_x() may be a multiple of the
 /// surface's. The margin of a finite patch lies at kFarBelow: nothing is ever hit there.
+///
+/// Heights that lie far from zero, as seen from each other, are counted from base(), where single
+/// precision tells them apart as well as it did; else base() is 0.
 class PaddedHeights {
   public:
     static constexpr int kMargin = 48;
@@ -33,6 +36,8 @@ class PaddedHeights {
     bool mirrored() const { return mirrored_; }
     double dx() const { return dx_; }
     double dy() const { return dy_; }
+    /// Height of the surface that is 0 here; all other heights are above it.
+    float base() const { return base_; }
     float max_height() const { return max_height_; }
     float min_height() const { return min_height_; }
 
@@ -53,7 +58,7 @@ class PaddedHeights {
     int cells_x_, cells_y_, pitch_ = 0;
     bool periodic_, mirrored_;
     double dx_, dy_;
-    float max_height_ = 0, min_height_ = 0;
+    float base_ = 0, max_height_ = 0, min_height_ = 0;
     std::vector<float> heights_;
 };
 

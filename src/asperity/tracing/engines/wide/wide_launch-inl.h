@@ -92,10 +92,11 @@ class Descent {
           cells_across_(line.swapped() ? heights.cells_y() : heights.cells_x()),
           cells_along_(line.swapped() ? heights.cells_x() : heights.cells_y()) {}
 
-    /// Goes on until all rays have landed: true, or until `room` of them have.
+    /// Goes on until all rays have landed, or the line ends: true, or until `room` of them have.
     HWY_INLINE bool go(std::size_t room, LaunchHits& hits, std::size_t& counted) {
         Known known = known_of(line_.round(stripe_.round));
-        for (Known next; flies(); ++stripe_.round, known = next) {
+        for (Known next; flies() && stripe_.round < LaunchLine::kMostRounds;
+             ++stripe_.round, known = next) {
             if (known_.cells) fetch_known(line_.round(stripe_.round + 2));
             next = known_of(line_.round(stripe_.round + 1));
             if (!next.all) fetch(line_.round(stripe_.round + 1));
@@ -197,7 +198,7 @@ class Descent {
         const hn::Rebind<std::uint8_t, IntTag> bytes;
         for (int n = 0; n < LaunchLine::kEdges; ++n) {
             const LaunchLine::Cell& cell = round.cells[n];
-            const std::uint8_t* at = known_row(place.y + cell.y) + (place.x + cell.x);
+            const std::uint8_t* at = known_row(place.lowest_y + cell.y) + (place.lowest_x + cell.x);
             const Ints bit = all(cell.upper ? CountedFacets::kUpper : CountedFacets::kLower);
             for (std::size_t k = 0; k < kVectors; ++k) {
                 const Ints facets = hn::PromoteTo(kInt, hn::LoadU(bytes, at + k * kLanes));

@@ -26,6 +26,13 @@ struct LaunchStripe {
     alignas(64) std::int32_t next[kLaunchGroup] = {};  ///< the first ray that has not landed
     /// Rays that enter the round no higher than this have landed.
     alignas(64) float shade[kLaunchGroup] = {};
+
+    /// Rays that have not landed.
+    std::uint64_t under_way() const {
+        std::int64_t count = 0;
+        for (std::size_t k = 0; k < kLaunchGroup; ++k) count += rays[k] - next[k];
+        return static_cast<std::uint64_t>(count);
+    }
 };
 
 /// What a caller knows beforehand of light of one direction: facets on which it is enough to count

@@ -88,7 +88,7 @@ void WideTracer::place(const Ray& ray, std::size_t k, PathWave& wave) const {
     p.height[k] = heights_.at(x, y);
     p.rise_u[k] = heights_.at(x + step, y) - p.height[k];
     p.rise_v[k] = heights_.at(x, y + step) - p.height[k];
-    wave.work_->start_height[k] = static_cast<float>(ray.z);
+    wave.work_->start_height[k] = static_cast<float>(ray.z - double{heights_.base()});
 }
 
 void WideTracer::set_direction(Directions& to, std::size_t k, Vec3 d, std::int32_t path) const {
@@ -191,8 +191,8 @@ void WideTracer::trace(std::span<Ray> rays, std::span<RayEnd> ends) const {
         const std::size_t count = std::min(kWave, rays.size() - first);
         std::vector<std::size_t> free, standing;
         for (std::size_t k = first; k < first + count; ++k) {
-            const bool above = rays[k].facet < 0 && rays[k].direction.z >= 0 &&
-                               rays[k].z >= static_cast<double>(heights_.max_height());
+            const bool above =
+                rays[k].facet < 0 && rays[k].direction.z >= 0 && rays[k].z >= double{max_height()};
             if (above)
                 ends[k] = RayEnd::Escaped;
             else
@@ -243,7 +243,7 @@ void WideTracer::stand(const FacetPoints& p, std::size_t k, Ray& ray) const {
     ray.u = upper != mirrored() ? 1 - u : u;
     ray.v = upper ? 1 - v : v;
     ray.z = static_cast<double>(p.height[k]) + static_cast<double>(p.rise_u[k]) * u +
-            static_cast<double>(p.rise_v[k]) * v;
+            static_cast<double>(p.rise_v[k]) * v + double{heights_.base()};
     ray.facet = static_cast<std::int32_t>(upper ? Triangle::Upper : Triangle::Lower);
     if (!periodic()) return;
     // Corners on the border belong to the next tile; a tile of ours may be several of the surface

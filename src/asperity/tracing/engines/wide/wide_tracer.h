@@ -63,7 +63,7 @@ class WideTracer {
     WideTracer(const Heightfield& surface, Run&& run) : WideTracer(surface, run) {}
     WideTracer(const Heightfield& surface, int threads) : WideTracer(surface, Run(threads)) {}
 
-    float max_height() const { return heights_.max_height(); }
+    float max_height() const { return heights_.base() + heights_.max_height(); }
     bool mirrored() const { return heights_.mirrored(); }
     bool periodic() const { return heights_.periodic(); }
     /// Cells of a tile of ours, which may be several tiles of the surface.
@@ -84,8 +84,9 @@ class WideTracer {
     /// tile on. Periodic surfaces only.
     void start(LaunchLine& line, double offset, const Vec3& d) const;
     /// Follows the rays of a stripe of such lines to their first facets, wave.points after land():
-    /// until all have landed, or no more fit in the wave. Returns whether all have. Rays onto
-    /// facets that are only counted go to wave.counted instead.
+    /// until all have landed, or no more fit in the wave. Returns whether all have, or are still
+    /// under way after LaunchLine::kMostRounds: stripe.under_way() of them. Rays onto facets that
+    /// are only counted go to wave.counted instead.
     bool launch(LaunchLine& line, LaunchStripe& stripe, const CountedFacets& known,
                 PathWave& wave) const;
     /// The same for rays straight down onto the place (u, v) of the cells of a row; as many must

@@ -101,6 +101,60 @@ TEST_P(WideTracerOn, LaunchesLinesAsThePlainTracerRayByRay) {
     EXPECT_LT(a.furthest, 1e-3);
 }
 
+/// A plateau with trenches along y: of 16 cells one slopes down, one is the ground, one slopes up.
+Heightfield trench(float depth) {
+    Heightfield s;
+    s.nx = s.ny = 64;
+    for (int k = 0; k < s.nx * s.ny; ++k)
+        s.heights.push_back(k % 16 == 8 || k % 16 == 9 ? -depth : 0);
+    s.name = "trench";
+    return s;
+}
+
+// Light at 89.9 degrees sinks by 0.0017 a cell: to the ground of the trench it takes 57,000 cells
+TEST(WideTracer, FollowsLinesForAsLongAsItTakes) {
+    const test::Agreement a = test::follow_lines(trench(100), 12, 100, [](std::uint64_t n) {
+        return -from_spherical(radians(89.9), radians(n % 2 == 0 ? 90 : 270));
+    });
+    EXPECT_EQ(a.rays, 1200);
+    EXPECT_EQ(a.other_end, 0);
+    EXPECT_EQ(a.other_facet, 0);
+    EXPECT_LT(a.furthest, 1e-2);
+}
+
+TEST(WideTracer, LinesEndSomewhere) {
+    const Heightfield s = trench(10000);
+    const WideTracer wide(s, 1);
+    const Vec3 d = -from_spherical(radians(89.9), radians(90));
+    LaunchLine line;
+    LaunchStripe stripe = test::stripe_of(0, 16, 4, d);
+    wide.start(line, 0.5, d);
+    PathWave wave;
+    wide.clear(wave);
+    EXPECT_TRUE(wide.launch(line, stripe, {}, wave));
+    // Cell 8 is the ground; the walls beside it end above
+    EXPECT_EQ(stripe.round, LaunchLine::kMostRounds);
+    EXPECT_EQ(stripe.next[8], 0);
+    EXPECT_EQ(stripe.next[0], 4);
+    EXPECT_GE(stripe.under_way(), 4u);
+}
+
+// A single float tells heights of 1e15 apart by 6.7e7
+TEST(WideTracer, HeightsMayLieFarFromZero) {
+    Heightfield low = test::surface_of({"thesis", SurfaceKind::Thesis, 0.2}, 64);
+    for (float& h : low.heights) h = std::round(h * 8) / 8;
+    Heightfield high = low;
+    for (const float far : {0x1p20f, -0x1p20f}) {
+        for (std::size_t k = 0; k < low.heights.size(); ++k) high.heights[k] = low.heights[k] + far;
+        const test::Agreement a = test::follow_lines(high, 20, 100);
+        EXPECT_EQ(a.rays, 2000);
+        EXPECT_EQ(a.other_end, 0);
+        EXPECT_LE(a.other_facet, 1);
+        const test::Agreement b = test::follow_both(high, 2000, 3);
+        EXPECT_LE(b.other_facet + b.other_end, 1);
+    }
+}
+
 using FacetId = std::pair<std::int32_t, float>;
 
 /// The facets that the rays of a stripe meet, sorted; waves are emptied whenever they are full.
