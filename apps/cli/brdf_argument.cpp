@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "brdf_argument.h"
 
+#include <asperity/bsdf/bsdf_models.h>
 #include <asperity/bsdf/spec.h>
 #include <asperity/core/error.h>
 
@@ -20,9 +21,7 @@ void check_brdf_exists(const std::string& text) {
     if (text.starts_with("file:") || is_brdf_spec(text) || std::filesystem::exists(text, ignored))
         return;
     throw Error(ErrorCode::InputOutput,
-                "there is no such file, and no such model (lambert, cook-torrance, ggx, "
-                "beckmann)",
-                text);
+                "there is no such file, and no such model (" + bsdf_model_names() + ")", text);
 }
 
 }  // namespace asperity::cli

@@ -9,6 +9,7 @@
 #include "table.h"
 #include "verbs.h"
 
+#include <asperity/bsdf/spec.h>
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
 #include <asperity/core/run.h>
@@ -26,22 +27,23 @@ namespace asperity::cli {
 
 namespace {
 
-constexpr const char* kClosing =
-    "A and B are result files, files of BSDFs (asperity export --help) or models:\n"
-    "  lambert:albedo=0.5\n"
-    "  cook-torrance:roughness=0.4,metallic=1,albedo=1/0.8/0.3,k=direct|ibl\n"
-    "  ggx:alpha=0.3,alpha_y=0.1,masking=correlated|separable,material=Au\n"
-    "  beckmann:alpha=0.3,f0=0.9\n"
-    "Models are averaged over the same cells. Light and detector options are for two models.\n"
-    "Two pictures (.exr, .hdr) of one size are compared in linear light, pixel by pixel.\n"
-    "L1 is the integral of |fa - fb| cos(theta) over the hemisphere (0 equal, 2 apart); noise is\n"
-    "what it would be from the error bars alone; RMS is of the same difference, in 1/sr.\n"
-    "\n"
-    "Examples\n"
-    "  asperity compare rough.asperity cook-torrance:roughness=0.55,metallic=1\n"
-    "  asperity compare first.asperity second.asperity --json\n"
-    "  asperity compare measured.exr model.exr\n"
-    "  asperity compare ggx:alpha=0.3 beckmann:alpha=0.3 --theta 0,30,60 --resolution 64\n";
+std::string closing() {
+    return "A and B are result files, files of BSDFs (asperity export --help) or models:\n" +
+           brdf_spec_help() +
+           "A key left out keeps its default; lists have \"/\" between their numbers.\n"
+           "Models are averaged over the same cells. Light and detector options are for two\n"
+           "models. Two pictures (.exr, .hdr) of one size are compared in linear light, pixel by\n"
+           "pixel. L1 is the integral of |fa - fb| cos(theta) over the hemisphere (0 equal, 2\n"
+           "apart); noise is what it would be from the error bars alone; RMS is of the same\n"
+           "difference, in 1/sr.\n"
+           "\n"
+           "Examples\n"
+           "  asperity compare rough.asperity cook-torrance:roughness=0.55,metallic=1\n"
+           "  asperity compare first.asperity second.asperity --json\n"
+           "  asperity compare measured.exr model.exr\n"
+           "  asperity compare ggx:alpha=0.3 student-t:alpha=0.3,gamma=4 --theta 0,30,60 "
+           "--resolution 64\n";
+}
 
 /// One side of a comparison.
 struct Side {
@@ -111,7 +113,7 @@ class CompareVerb {
         experiment_.add_to(app, {kLight, kDetector}, false);
         threads_.add_to(app);
         app.add_flag("--json", json_, "print one JSON object")->group(kOutput);
-        set_help(app, "compare A B [options]", kClosing);
+        set_help(app, "compare A B [options]", closing());
     }
 
     int run() {

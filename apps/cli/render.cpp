@@ -70,10 +70,10 @@ class RenderVerb {
         const LoadedModel loaded = load_model(options_);
         say(model_lines(loaded));
         auto lights = load_lights(options_);
-        Materials worn = load_materials(options_, run);
+        Materials materials = load_materials(options_, run);
         progress.clear();
-        const ModelScene scene{std::make_shared<TracedModel>(loaded.model, run), worn.left,
-                               worn.split, worn.stage, std::move(lights)};
+        const ModelScene scene{std::make_shared<TracedModel>(loaded.model, run), materials.left,
+                               materials.split, materials.stage, std::move(lights)};
         progress.clear();
         say(scene_lines(scene));
 
@@ -85,7 +85,7 @@ class RenderVerb {
                         "stopped before anything was to be seen, nothing is "
                         "written");
         }
-        write(picture, tone, worn.origin);
+        write(picture, tone, materials.origin);
         tell(say, picture);
         return picture.outcome.stopped ? static_cast<int>(ErrorCode::Stopped) : 0;
     }
@@ -132,7 +132,7 @@ class RenderVerb {
 }  // namespace
 
 Verb add_render(CLI::App& program) {
-    CLI::App* app = program.add_subcommand("render", "show a model that wears BRDFs");
+    CLI::App* app = program.add_subcommand("render", "show a model with BRDFs assigned to it");
     const auto verb = std::make_shared<RenderVerb>(*app);
     return {app, [verb] { return verb->run(); }};
 }

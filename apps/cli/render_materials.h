@@ -8,7 +8,7 @@
 
 namespace asperity::cli {
 
-/// What the model wears, and where it comes from.
+/// The materials assigned to the model, and where they come from.
 struct Materials {
     Material left;
     std::optional<SplitView> split;
@@ -17,7 +17,7 @@ struct Materials {
     io::Provenance origin;
 };
 
-/// Refuses, before anything is read, what cannot be worn.
+/// Refuses, before anything is read, what cannot be assigned.
 void check_materials(const RenderOptions& options);
 
 /// Reads results, makes them ready to be shaded with, and parses models. Throws Error(Usage,

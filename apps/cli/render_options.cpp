@@ -29,7 +29,7 @@ constexpr OptionInfo kRenderOptions[] = {
 
     {"brdf", "SPEC|FILE", kMaterial,
      "a result of asperity simulate, or a model as asperity compare takes it; given twice, the "
-     "second is worn right of the split",
+     "second is assigned right of the split",
      "cook-torrance:roughness=0.4,metallic=1"},
     {"split", "S", kMaterial, "where the second BRDF begins, as a share of the width", "0.5"},
     {"normalize-factor", "X[,Y]", kMaterial,

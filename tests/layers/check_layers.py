@@ -25,7 +25,7 @@ MAY_SEE = {
     "surface": {"core", "params"},
     "tracing": {"core", "optics", "surface"},
     "gonio": {"core", "params", "optics", "surface", "tracing"},
-    "bsdf": {"core", "optics", "surface"},
+    "bsdf": {"core", "params", "optics", "surface"},
     "measured": {"core", "optics", "surface", "tracing", "gonio", "bsdf"},
     "render": {"core", "optics", "surface", "bsdf"},
     "formats": {"core"},

@@ -8,18 +8,19 @@
 
 namespace asperity {
 
-/// Makes an analytic BRDF from one line, "model:key=value,key=value":
+/// Makes an analytic BRDF from one line, "model:key=value,key=value", such as
 ///
-///     lambert:albedo=0.5[/0.4/0.3]
-///     cook-torrance:roughness=0.4,metallic=1,albedo=1/0.8/0.3,k=direct|ibl
-///     ggx:alpha=0.3[,alpha_y=0.1][,masking=correlated|separable][,fresnel...]
-///     beckmann:alpha=0.3 ...
+///     lambert:albedo=0.5/0.4/0.3
+///     ggx:alpha=0.3,material=Au
 ///
-/// ggx and beckmann take f0=, ior=, k=, material= as the command line does (lists with "/").
-/// Throws Error(Usage, spec) naming what is wrong and the keys there are.
+/// Models and their keys are the rows of bsdf_models(); lists have "/" between their numbers.
+/// Throws Error(Usage, spec) naming what is wrong and the models or keys there are.
 std::unique_ptr<Bsdf> parse_brdf_spec(const std::string& spec);
 
 /// True when `spec` begins with the name of an analytic model.
 bool is_brdf_spec(const std::string& spec);
+
+/// The form of all models' specifications, for help: indented lines, each with its line end.
+std::string brdf_spec_help();
 
 }  // namespace asperity

@@ -22,9 +22,9 @@ constexpr double kSameAngle = 1e-9;  ///< [rad]
 /// Share of the samples drawn from a cosine, so that no direction with light is left out.
 constexpr double kCosineShare = 0.1;
 
-/// The cosine, held off zero. A facet mirrors f ~ 1 / (cos_i cos_o) where neighbours do not hide
-/// it, and much less near the horizon where they do: f times these is what changes least from one
-/// incident angle to the next.
+/// The cosine, clamped away from zero. A facet mirrors f ~ 1 / (cos_i cos_o) where neighbours do
+/// not hide it, and much less near the horizon where they do: f times these is what changes least
+/// from one incident angle to the next.
 double soft_cosine(double cosine) {
     constexpr double kSoftness = 0.15;
     return std::sqrt(cosine * cosine + kSoftness * kSoftness);

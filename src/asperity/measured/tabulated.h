@@ -13,10 +13,11 @@ namespace asperity {
 /// Between layers (theta_i, and phi_i when several were measured, which runs round): for wi and wo,
 /// every neighbouring layer is asked for the direction into which the facet that mirrors wi to wo
 /// sends the layer's own light. There its lobe has the same place, so lobes move with the light
-/// instead of fading one into another; f times both cosines, held off zero, is what is blended.
-/// Where a layer's direction falls below the horizon the other layers count. A factor found for
-/// incident directions 1.5 degrees apart then makes the albedo the blend of the layers' albedos.
-/// Light sent straight back (grooves) does not follow the mirror: between layers it may double.
+/// instead of fading one into another; f times both cosines, clamped away from zero, is what is
+/// blended. Where a layer's direction falls below the horizon the other layers count. A factor
+/// found for incident directions 1.5 degrees apart then makes the albedo the blend of the layers'
+/// albedos. Light sent straight back (grooves) does not follow the mirror: between layers it may
+/// double.
 ///
 /// Within a layer: linear between the cells, the pole a node of its own, constant from the last
 /// row's middle to the horizon; peaks are kept as far as they stand out of the error bars.

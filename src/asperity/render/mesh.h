@@ -43,7 +43,7 @@ struct Transform {
     constexpr Vec3 vector(Vec3 v) const { return v.x * x + v.y * y + v.z * z; }
 };
 
-/// What a part of a scene is there for; it decides which material it wears.
+/// What a part of a scene is there for; it decides which material is assigned to it.
 enum class Role {
     Subject,  ///< the model that is looked at: the material, or both of a split view
     Stage,    ///< what it stands on: ModelScene::stage

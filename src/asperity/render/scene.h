@@ -13,7 +13,7 @@
 namespace asperity {
 
 /// Two materials on one model: left of an upright line in the picture the scene's own, right of it
-/// another. A path wears the material of the pixel it started from everywhere, so each side is what
+/// another. A path keeps the material of the pixel it started from everywhere, so each side is what
 /// the whole picture would be.
 struct SplitView {
     Material right;

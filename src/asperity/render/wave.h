@@ -24,7 +24,7 @@ struct View {
 struct Path {
     WorldRay ray;  ///< the next to be followed
     PixelSampler sampler;
-    const Material* subject;  ///< what Role::Subject wears
+    const Material* subject;  ///< the one assigned to Role::Subject
     Rgb radiance;             ///< found so far
     Rgb throughput{1, 1, 1};  ///< of what `ray` will bring
     double pdf = 0;           ///< of ray.direction, as the BRDF draws it [1/sr]

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <asperity/bsdf/bsdf_models.h>
 #include <asperity/bsdf/models/cook_torrance.h>
 #include <asperity/bsdf/models/lambert.h>
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
 #include <asperity/optics/fresnel.h>
+#include <asperity/params/fields.h>
 
 #include <fmt/format.h>
 
@@ -11,6 +13,16 @@
 
 namespace asperity {
 namespace {
+
+constexpr Names<GeometryRemap, 2> kRemaps = {{
+    {"direct", GeometryRemap::Direct},
+    {"ibl", GeometryRemap::Ibl},
+}};
+constexpr Names<DiffuseTerm, 3> kDiffuseTerms = {{
+    {"on", DiffuseTerm::Coupled},
+    {"off", DiffuseTerm::Off},
+    {"uncoupled", DiffuseTerm::Uncoupled},
+}};
 
 void require(bool holds, const char* setting, double value, const char* words) {
     if (!holds) throw Error(ErrorCode::Usage, fmt::format("{} is not {}", value, words), setting);
@@ -38,12 +50,9 @@ CookTorranceBrdf::CookTorranceBrdf(const CookTorranceSettings& settings) : setti
 }
 
 std::string CookTorranceBrdf::name() const {
-    const char* diffuse = settings_.diffuse == DiffuseTerm::Off       ? "off"
-                          : settings_.diffuse == DiffuseTerm::Coupled ? "on"
-                                                                      : "uncoupled";
     return fmt::format("cook-torrance:roughness={},metallic={},albedo={},k={},diffuse={}",
                        settings_.roughness, settings_.metallic, fmt::join(settings_.albedo, "/"),
-                       settings_.k == GeometryRemap::Direct ? "direct" : "ibl", diffuse);
+                       name_of(kRemaps, settings_.k), name_of(kDiffuseTerms, settings_.diffuse));
 }
 
 void CookTorranceBrdf::eval(Vec3 wi, Vec3 wo, std::span<double> f) const {
@@ -59,7 +68,7 @@ void CookTorranceBrdf::eval(Vec3 wi, Vec3 wo, std::span<double> f) const {
     const double d = facets_.normal_density((1 / sum_length) * sum);
     // Eq. 3.7.
     const double g = geometry_schlick_ggx(wi.z, k_) * geometry_schlick_ggx(wo.z, k_);
-    // Code 4.1 keeps the denominator from zero by 0.0001.
+    // Code 4.1 regularises the denominator by 0.0001.
     const double mirror = d * g / (4 * (wi.z * wo.z) + 0.0001);
 
     for (std::size_t c = 0; c < f.size(); ++c) {
@@ -92,6 +101,53 @@ double CookTorranceBrdf::pdf(Vec3 wi, Vec3 wo) const {
     const Vec3 wm = normalize(wi + wo);
     const double specular = facets_.normal_density(wm) / (4 * wi.z * (1 + facets_.lambda(wi)));
     return specular_share_ * specular + (1 - specular_share_) * wo.z / kPi;
+}
+
+namespace {
+
+/// Red, green and blue as a list; one value counts for all three.
+Param<CookTorranceSettings> albedo_row() {
+    using S = CookTorranceSettings;
+    ParamInfo info{.name = "albedo",
+                   .metavar = "R[/G/B]",
+                   .range = kZeroToOne,
+                   .doc = "colour of the diffuse part and of a metal's highlight",
+                   .most = 3,
+                   .type = ParamType::List};
+    return {info, [](const S& s) { return std::vector(s.albedo.begin(), s.albedo.end()); },
+            [info](S& s, const ParamValue& value) {
+                const auto& list = std::get<std::vector<double>>(value);
+                if (list.size() != 1 && list.size() != 3)
+                    refuse(info, fmt::format("has {} values, 1 or 3 are taken", list.size()));
+                for (std::size_t c = 0; c < 3; ++c) s.albedo[c] = list[list.size() == 1 ? 0 : c];
+            }};
+}
+
+}  // namespace
+
+BsdfModel cook_torrance_model() {
+    using S = CookTorranceSettings;
+    return bsdf_model<S>(
+        "cook-torrance", "Cook-Torrance",
+        "the thesis' model (eq. 4.2 and 4.4): GGX normals, Schlick's shadowing and reflectance",
+        {field(&S::roughness, {.name = "roughness",
+                               .range = {0.01, 1},
+                               .doc = "alpha = roughness^2 of the distribution of normals (thesis "
+                                      "eq. 3.8), and k of the shadowing (eq. 3.6)"}),
+         field(&S::metallic, {.name = "metallic",
+                              .range = kZeroToOne,
+                              .doc = "F0 = 0.04 + (albedo - 0.04) metallic (thesis eq. 3.3); a "
+                                     "metal has no diffuse part (eq. 4.4)"}),
+         albedo_row(),
+         field(
+             &S::k, kRemaps,
+             {.name = "k",
+              .label = "Shadowing",
+              .doc = "k of the shadowing: direct, (roughness + 1)^2 / 8, or ibl, roughness^2 / 2"}),
+         field(&S::diffuse, kDiffuseTerms,
+               {.name = "diffuse",
+                .doc = "the diffuse part: on, (1 - F) (1 - metallic); off; or uncoupled, 1"})},
+        [](const S& s) { return std::make_unique<CookTorranceBrdf>(s); }, {"roughness"});
 }
 
 }  // namespace asperity

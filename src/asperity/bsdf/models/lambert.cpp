@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <asperity/bsdf/bsdf_models.h>
 #include <asperity/bsdf/models/lambert.h>
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
+#include <asperity/params/fields.h>
 
 #include <fmt/format.h>
 
@@ -45,6 +47,25 @@ Vec3 sample_cosine(double u1, double u2) {
     // The projection onto the plane is a uniform disk; 1 - u1 > 0 keeps z above zero.
     const double r = std::sqrt(u1), phi = 2 * kPi * u2;
     return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u1)};
+}
+
+namespace {
+
+struct LambertSettings {
+    std::vector<double> albedo = {1.0};
+};
+
+}  // namespace
+
+BsdfModel lambert_model() {
+    using S = LambertSettings;
+    return bsdf_model<S>("lambert", "Lambert", "a perfectly diffuse surface: f = albedo / pi",
+                         {field(&S::albedo, {.name = "albedo",
+                                             .metavar = "X[/Y/Z]",
+                                             .range = kZeroToOne,
+                                             .doc = "share of the light that is reflected, one "
+                                                    "value or one per channel"})},
+                         [](const S& s) { return std::make_unique<LambertBrdf>(s.albedo); });
 }
 
 }  // namespace asperity

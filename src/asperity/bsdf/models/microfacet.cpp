@@ -1,92 +1,108 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <asperity/bsdf/models/microfacet.h>
-#include <asperity/core/directions.h>
+#include <asperity/bsdf/models/microfacet_spec.h>
 #include <asperity/core/error.h>
+#include <asperity/optics/optics_params.h>
+#include <asperity/params/fields.h>
 
 #include <fmt/format.h>
 
 namespace asperity {
 namespace {
 
-double checked_alpha(const char* name, double alpha) {
-    if (!(alpha >= 1e-4 && alpha <= 100))
+constexpr Range kAlphas = {1e-4, 100};
+constexpr Names<Masking, 2> kMaskings = {{
+    {"correlated", Masking::Correlated},
+    {"separable", Masking::Separable},
+}};
+
+void check_alpha(const char* name, double alpha) {
+    if (!kAlphas.contains(alpha))
         throw Error(ErrorCode::Usage, fmt::format("{} is not within 0.0001 .. 100", alpha), name);
-    return alpha;
 }
 
-std::string list_setting(const char* key, const std::vector<double>& values) {
-    return values.empty() ? "" : fmt::format(",{}={}", key, fmt::join(values, "/"));
-}
-
-std::string fresnel_name(FresnelKind kind) {
-    switch (kind) {
-        case FresnelKind::None:
-            return "";
-        case FresnelKind::Schlick:
-            return ",fresnel=schlick";
-        case FresnelKind::Dielectric:
-            return ",fresnel=dielectric";
-        case FresnelKind::Conductor:
-            return ",fresnel=conductor";
-    }
-    return "";
+/// The row of the law, open as long as none is named.
+Param<MicrofacetSpec> law_row(const Param<OpticsSettings>& row) {
+    ParamInfo info = row.info;
+    info.absent = "implied";
+    return {info,
+            [row](const MicrofacetSpec& s) {
+                if (!s.fresnel) return ParamValue();
+                OpticsSettings optics;
+                optics.fresnel = *s.fresnel;
+                return row.get(optics);
+            },
+            [row](MicrofacetSpec& s, const ParamValue& value) {
+                OpticsSettings optics;
+                s.fresnel.reset();
+                if (std::holds_alternative<std::monostate>(value)) return;
+                row.set(optics, value);
+                s.fresnel = optics.fresnel;
+            }};
 }
 
 }  // namespace
 
-MicrofacetBrdf::MicrofacetBrdf(const MicrofacetSettings& settings)
-    : settings_(settings),
-      surface_{settings.distribution, checked_alpha("alpha", settings.alpha_x),
-               checked_alpha("alpha_y", settings.alpha_y)},
-      fresnel_(settings.optics) {}
-
-std::string MicrofacetBrdf::name() const {
-    const OpticsSettings& optics = settings_.optics;
-    std::string line =
-        fmt::format("{}:alpha={}", surface_.distribution == SlopeFamily::Ggx ? "ggx" : "beckmann",
-                    surface_.alpha_x);
-    if (!isotropic()) line += fmt::format(",alpha_y={}", surface_.alpha_y);
-    if (settings_.masking == Masking::Separable) line += ",masking=separable";
-    line += fresnel_name(optics.fresnel);
-    line += list_setting("f0", optics.f0) + list_setting("ior", optics.ior) +
-            list_setting("k", optics.k);
-    if (!optics.material.empty()) line += ",material=" + optics.material;
-    return line + list_setting("wavelengths", optics.wavelengths);
+OpticsSettings MicrofacetSpec::law() const {
+    OpticsSettings settings = optics;
+    settings.fresnel = fresnel.value_or(implied_fresnel(optics));
+    return settings;
 }
 
-void MicrofacetBrdf::eval(Vec3 wi, Vec3 wo, std::span<double> f) const {
-    if (wi.z <= 0 || wo.z <= 0) {
-        for (double& value : f) value = 0;
-        return;
+ParamTable<MicrofacetSpec> microfacet_params() {
+    using S = MicrofacetSpec;
+    ParamTable<S> table = {
+        field(&S::alpha, {.name = "alpha",
+                          .range = kAlphas,
+                          .doc = "width of the distribution of slopes; Beckmann's is the rms "
+                                 "gradient, sqrt(2) times the rms slope along an axis"}),
+        field(&S::alpha_y, {.name = "alpha_y",
+                            .label = "Alpha along y",
+                            .range = kAlphas,
+                            .absent = "alpha",
+                            .doc = "width along y of an anisotropic surface"}),
+        field(&S::masking, kMaskings,
+              {.name = "masking",
+               .doc = "Smith's: height-correlated (Heitz 2014, eq. 99) or separable (eq. 98)"}),
+    };
+    const ParamTable<OpticsSettings> optics = optics_params();
+    for (const Param<OpticsSettings>& row : optics) {
+        if (row.info.name == "fresnel")
+            table.push_back(law_row(row));
+        else
+            append(table, ParamTable<OpticsSettings>{row}, &S::optics);
     }
-    // The half vector; wi . wm = |wi + wo| / 2, an expression that knows no difference between the
-    // two directions.
-    const Vec3 sum = wi + wo;
-    const double sum_length = length(sum);
-    const double lambda_i = surface_.lambda(wi), lambda_o = surface_.lambda(wo);
-    const double hidden = settings_.masking == Masking::Correlated
-                              ? 1 + (lambda_i + lambda_o)
-                              : (1 + lambda_i) * (1 + lambda_o);
-    const double d = surface_.normal_density((1 / sum_length) * sum);
-    fresnel_.eval(std::min(1.0, 0.5 * sum_length), f);
-    const double mirror = d / (4 * (wi.z * wo.z) * hidden);
-    for (double& value : f) value *= mirror;
+    return table;
 }
 
-std::optional<BsdfSample> MicrofacetBrdf::sample(Vec3 wi, double u1, double u2) const {
-    if (wi.z <= 0) return std::nullopt;
-    const Vec3 wo = reflect(wi, surface_.sample_visible_normal(wi, u1, u2));
-    const double density = pdf(wi, wo);
-    if (!(density > 0)) return std::nullopt;
-    return BsdfSample{wo, density};
+std::string microfacet_name(const char* model, double alpha_x, double alpha_y,
+                            const std::string& own, Masking masking, const OpticsSettings& optics) {
+    check_alpha("alpha", alpha_x);
+    check_alpha("alpha_y", alpha_y);
+    std::string line = fmt::format("{}:alpha={}", model, alpha_x);
+    if (alpha_x != alpha_y) line += fmt::format(",alpha_y={}", alpha_y);
+    line += own;
+    if (masking == Masking::Separable) line += ",masking=separable";
+    for (const Param<OpticsSettings>& row : optics_params()) {
+        const std::string value = to_spec_text(row.info, row.text(optics));
+        if (value != to_spec_text(row.info, row.default_text()))
+            line += "," + row.info.name + "=" + value;
+    }
+    return line;
 }
 
-double MicrofacetBrdf::pdf(Vec3 wi, Vec3 wo) const {
-    if (wi.z <= 0 || wo.z <= 0) return 0;
-    // Density of the facet normal / (4 wi . wm), the Jacobian of the reflection (Walter et al.
-    // 2007, eq. 14); wi . wm cancels.
-    const Vec3 wm = normalize(wi + wo);
-    return surface_.normal_density(wm) / (4 * wi.z * (1 + surface_.lambda(wi)));
+MicrofacetBrdf::MicrofacetBrdf(const MicrofacetSettings& s)
+    : MicrofacetModel(microfacet_name(s.distribution == SlopeFamily::Ggx ? "ggx" : "beckmann",
+                                      s.alpha_x, s.alpha_y, "", s.masking, s.optics),
+                      {s.distribution, s.alpha_x, s.alpha_y}, s.masking, s.optics) {}
+
+BsdfModel smith_model(SlopeFamily family, std::string name, std::string label, std::string doc) {
+    return bsdf_model<MicrofacetSpec>(
+        std::move(name), std::move(label), std::move(doc), microfacet_params(),
+        [family](const MicrofacetSpec& s) {
+            return std::make_unique<MicrofacetBrdf>(
+                MicrofacetSettings{family, s.alpha, s.width_y(), s.masking, s.law()});
+        },
+        {"alpha"});
 }
 
 }  // namespace asperity

@@ -123,6 +123,8 @@ TEST(MicrofacetTest, ReciprocalToRounding) {
                            "beckmann:alpha=0.9,ior=1.5",
                            "cook-torrance:roughness=0.3,metallic=0.5,albedo=0.9/0.5/0.1",
                            "cook-torrance:roughness=1,metallic=0,k=ibl",
+                           "student-t:alpha=0.4,gamma=1.7",
+                           "student-t:alpha=0.4,alpha_y=0.2,gamma=5,masking=separable,ior=1.5",
                            "lambert:albedo=0.3"};
     const CounterRandom random(7, 0);
     for (const char* spec : specs) {

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/bsdf/bsdf_models.h>
+#include <asperity/bsdf/models/lambert.h>
+#include <asperity/bsdf/spec.h>
+#include <asperity/core/error.h>
+#include <asperity/params/fields.h>
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace asperity {
+namespace {
+
+TEST(BsdfModelsTest, EveryRowIsComplete) {
+    std::set<std::string> names;
+    for (const BsdfModel& model : bsdf_models()) {
+        EXPECT_TRUE(names.insert(model.name).second) << model.name;
+        EXPECT_FALSE(model.label.empty() || model.doc.empty()) << model.name;
+        for (const BsdfParam& param : model.params) {
+            EXPECT_FALSE(param.info.doc.empty()) << model.name << " " << param.info.name;
+            // The default is a value of the row.
+            const ParamValue value = parse(param.info, from_spec_text(param.info, param.otherwise));
+            EXPECT_NO_THROW(check(param.info, value)) << model.name << " " << param.info.name;
+        }
+    }
+}
+
+TEST(BsdfModelsTest, DefaultsMayBeWrittenOut) {
+    // A specification with every key at its default is the one that leaves them out.
+    for (const BsdfModel& model : bsdf_models()) {
+        std::string all = model.name + ":", few = all;
+        for (const BsdfParam& param : model.params) {
+            const std::string setting = param.info.name + "=" + param.otherwise;
+            all += (all.back() == ':' ? "" : ",") + setting;
+            if (param.required) few += (few.back() == ':' ? "" : ",") + setting;
+        }
+        EXPECT_EQ(parse_brdf_spec(all)->name(), parse_brdf_spec(few)->name());
+        EXPECT_EQ(parse_brdf_spec(parse_brdf_spec(all)->name())->name(),
+                  parse_brdf_spec(all)->name());
+    }
+}
+
+TEST(BsdfModelsTest, HelpShowsEachModelAndKey) {
+    const std::string help = brdf_spec_help();
+    for (const BsdfModel& model : bsdf_models()) {
+        EXPECT_NE(help.find("  " + model.name + ":"), std::string::npos) << help;
+        for (const BsdfParam& param : model.params)
+            EXPECT_NE(help.find(param.info.name + "="), std::string::npos) << help;
+    }
+    std::size_t begin = 0;
+    for (std::size_t end; (end = help.find('\n', begin)) != std::string::npos; begin = end + 1)
+        EXPECT_LE(end - begin, 90u) << help;
+}
+
+struct GreySettings {
+    double grey = 0.5;
+};
+
+BsdfModel grey_model(const char* name) {
+    return bsdf_model<GreySettings>(
+        name, "Grey", "a grey diffuse surface",
+        {field(&GreySettings::grey, {.name = "grey", .range = kZeroToOne, .doc = "how grey"})},
+        [](const GreySettings& s) {
+            return std::make_unique<LambertBrdf>(std::vector<double>{s.grey});
+        });
+}
+
+TEST(BsdfModelsTest, AProgramAddsItsOwn) {
+    EXPECT_FALSE(is_brdf_spec("grey:grey=0.25"));
+    add_bsdf_model(grey_model("grey"));
+    EXPECT_EQ(parse_brdf_spec("grey:grey=0.25")->name(), "lambert:albedo=0.25");
+    EXPECT_EQ(bsdf_models().back().label, "Grey");
+    try {
+        parse_brdf_spec("grey:grey=7");
+        ADD_FAILURE();
+    } catch (const Error& e) {
+        EXPECT_EQ(e.message(), "grey: '7' must be in 0 .. 1");
+    }
+}
+
+TEST(BsdfModelsTest, WhatIsNoRowIsRefused) {
+    const std::size_t before = bsdf_models().size();
+    EXPECT_THROW(add_bsdf_model(grey_model("")), Error);
+    EXPECT_THROW(add_bsdf_model(grey_model("ggx")), Error);
+    EXPECT_THROW(add_bsdf_model(grey_model("my:grey")), Error);
+    BsdfModel empty = grey_model("empty");
+    empty.make = nullptr;
+    EXPECT_THROW(add_bsdf_model(empty), Error);
+    EXPECT_EQ(bsdf_models().size(), before);
+}
+
+}  // namespace
+}  // namespace asperity
