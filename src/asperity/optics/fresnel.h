@@ -2,6 +2,7 @@
 #pragma once
 
 #include <asperity/optics/optics_settings.h>
+#include <asperity/optics/scattering_law.h>
 
 #include <array>
 #include <span>
@@ -32,6 +33,9 @@ double fresnel_conductor(double cos_theta, double n, double k);
 /// an index alone a dielectric, nothing perfect mirrors.
 FresnelKind implied_fresnel(const OpticsSettings& settings);
 
+/// Of the channels of a material [nm]; empty where none is named.
+std::vector<double> wavelengths_of(const OpticsSettings& settings);
+
 /// The reflectance of the facets, per channel, ready to evaluate.
 class Fresnel {
   public:
@@ -46,7 +50,7 @@ class Fresnel {
     /// "550nm"...
     const std::vector<std::string>& channel_names() const { return names_; }
     /// True when F = 1 on every channel: weights never change.
-    bool perfect() const { return kind_ == FresnelKind::None; }
+    bool perfect() const { return law_->kind == FresnelKind::None; }
 
     /// Writes the reflectance of each channel; cos_theta in [0, 1] between wi and wm;
     /// f.size() == channels().
@@ -55,13 +59,8 @@ class Fresnel {
     void eval(std::span<const float> cos_theta, std::span<float* const> f) const;
 
   private:
-    void set_conductor(const OpticsSettings& settings);
-
-    struct Channel {
-        double f0 = 1, n = 1, k = 0;
-    };
-    FresnelKind kind_ = FresnelKind::None;
-    std::vector<Channel> channels_ = {Channel{}};
+    const ScatteringLaw* law_ = &scattering_law(FresnelKind::None);
+    std::vector<FacetChannel> channels_ = {FacetChannel{}};
     std::vector<std::string> names_ = {"all"};
 };
 

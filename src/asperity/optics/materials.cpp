@@ -5,13 +5,12 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <string>
 
 namespace asperity {
 namespace {
 
-struct Point {
-    double wavelength_nm, n, k;
-};
+using Point = MaterialPoint;
 
 constexpr std::string_view kJohnson1972 =
     "P. B. Johnson and R. W. Christy, Optical constants of the noble metals, "
@@ -61,40 +60,29 @@ constexpr std::array kTi = {
     Point{397, 2.08, 2.95}, Point{413, 2.14, 2.98}, Point{431, 2.21, 3.01}, Point{451, 2.27, 3.04},
     Point{471, 2.32, 3.10}, Point{496, 2.36, 3.19}, Point{521, 2.44, 3.30}, Point{549, 2.54, 3.43},
     Point{582, 2.60, 3.58}, Point{617, 2.67, 3.72}, Point{659, 2.76, 3.84}, Point{704, 2.86, 3.96}};
-
-constexpr std::array<std::string_view, 8> kNames = {
-    "Ag", "Al", "Au", "Cr", "Cu", "Fe", "Ni", "Ti"};
 // clang-format on
 
-struct Material {
-    std::span<const Point> points;
-    std::string_view source;
+constexpr TabulatedMaterial kMaterials[] = {
+    {"Ag", "Silver", kJohnson1972, kAg}, {"Al", "Aluminium", kRakic1995, kAl},
+    {"Au", "Gold", kJohnson1972, kAu},   {"Cr", "Chrome", kJohnson1974, kCr},
+    {"Cu", "Copper", kJohnson1972, kCu}, {"Fe", "Iron", kJohnson1974, kFe},
+    {"Ni", "Nickel", kJohnson1974, kNi}, {"Ti", "Titanium", kJohnson1974, kTi},
 };
 
-/// In the order of kNames.
-constexpr std::array<Material, kNames.size()> kMaterials = {{
-    {kAg, kJohnson1972},
-    {kAl, kRakic1995},
-    {kAu, kJohnson1972},
-    {kCr, kJohnson1974},
-    {kCu, kJohnson1972},
-    {kFe, kJohnson1974},
-    {kNi, kJohnson1974},
-    {kTi, kJohnson1974},
-}};
-
-const Material& find_material(std::string_view name) {
-    for (std::size_t m = 0; m < kNames.size(); ++m)
-        if (kNames[m] == name) return kMaterials[m];
-    throw Error(ErrorCode::Usage,
-                fmt::format("\"{}\" is not known; there are {}", name, fmt::join(kNames, ", ")),
+const TabulatedMaterial& find_material(std::string_view symbol) {
+    std::string symbols;
+    for (const TabulatedMaterial& material : kMaterials) {
+        if (material.symbol == symbol) return material;
+        symbols += (symbols.empty() ? "" : ", ") + std::string(material.symbol);
+    }
+    throw Error(ErrorCode::Usage, fmt::format("\"{}\" is not known; there are {}", symbol, symbols),
                 "material");
 }
 
 }  // namespace
 
-std::span<const std::string_view> material_names() {
-    return kNames;
+std::span<const TabulatedMaterial> materials() {
+    return kMaterials;
 }
 
 ComplexIndex refractive_index(std::string_view material, double wavelength_nm) {
@@ -112,10 +100,6 @@ ComplexIndex refractive_index(std::string_view material, double wavelength_nm) {
     const Point& b = points[right];
     const double t = (wavelength_nm - a.wavelength_nm) / (b.wavelength_nm - a.wavelength_nm);
     return {a.n + t * (b.n - a.n), a.k + t * (b.k - a.k)};
-}
-
-std::string material_source(std::string_view material) {
-    return std::string(find_material(material).source);
 }
 
 }  // namespace asperity
