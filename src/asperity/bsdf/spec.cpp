@@ -67,6 +67,9 @@ std::string help_value(const BsdfParam& param) {
 }  // namespace
 
 std::unique_ptr<Bsdf> parse_brdf_spec(const std::string& spec) {
+    if (std::any_of(spec.begin(), spec.end(),
+                    [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }))
+        throw Error(ErrorCode::Usage, "control characters are no part of a model", in_quotes(spec));
     const std::size_t colon = spec.find(':');
     const std::string name = spec.substr(0, colon);
     const std::optional<BsdfModel> model = find_bsdf_model(name);

@@ -23,7 +23,7 @@ void translating_exr(const std::string& path, ErrorCode code, Call&& call) {
     } catch (const std::exception& error) {
         std::string why = error.what();
         for (char& c : why)
-            if (static_cast<unsigned char>(c) < ' ') c = ' ';
+            if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
         throw Error(code, "OpenEXR: " + std::string(trimmed(why)), path);
     }
 }
