@@ -2,6 +2,7 @@
 #include <asperity/bsdf/bsdf_models.h>
 #include <asperity/bsdf/spec.h>
 #include <asperity/core/error.h>
+#include <asperity/core/parse_number.h>
 
 #include <fmt/format.h>
 
