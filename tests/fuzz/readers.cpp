@@ -340,8 +340,7 @@ std::string fault_of(const Reader& reader, const std::string& path) {
         if (error.code() != ErrorCode::InvalidInput && error.code() != ErrorCode::Usage && !missing)
             return fmt::format("an error of code {}: {}", static_cast<int>(error.code()), text);
         // A specification is its own place.
-        if (error.where().empty() && !get(path).empty())
-            return "an error without a place: " + text;
+        if (error.where().empty() && !get(path).empty()) return "an error without a place: " + text;
         if (std::any_of(text.begin(), text.end(),
                         [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }))
             return "control characters in an error: " + text;
