@@ -8,6 +8,7 @@ BsdfFormat layers_exr_format();
 BsdfFormat layers_csv_format();
 BsdfFormat rgl_format();
 BsdfFormat merl_format();
+BsdfFormat klems_format();
 
 std::vector<BsdfFormat> builtin_formats() {
     return {
@@ -15,6 +16,7 @@ std::vector<BsdfFormat> builtin_formats() {
         layers_csv_format(),
         rgl_format(),
         merl_format(),
+        klems_format(),
     };
 }
 
