@@ -163,8 +163,11 @@ class ExportVerb {
     io::ExportSource open_source() const {
         const int threads = Run().threads();
         const std::string text = text_of(file_);
-        if (auto bsdf = open_brdf(text, formats_))
-            return {std::shared_ptr<const Bsdf>(std::move(bsdf)), Experiment{}, threads};
+        if (auto bsdf = open_brdf(text, formats_)) {
+            Experiment cells;
+            cells.detector.resolution = 64;  // of the fidelity; a model has none of its own
+            return {std::shared_ptr<const Bsdf>(std::move(bsdf)), cells, threads};
+        }
         return {std::make_shared<const Measurement>(io::load_measurement(text)), threads};
     }
 
