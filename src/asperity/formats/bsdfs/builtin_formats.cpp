@@ -12,11 +12,7 @@ BsdfFormat klems_format();
 
 std::vector<BsdfFormat> builtin_formats() {
     return {
-        layers_exr_format(),
-        layers_csv_format(),
-        rgl_format(),
-        merl_format(),
-        klems_format(),
+        layers_exr_format(), layers_csv_format(), rgl_format(), merl_format(), klems_format(),
     };
 }
 
