@@ -6,8 +6,8 @@
 
 #include <asperity/core/directions.h>
 #include <asperity/core/energy.h>
-#include <asperity/gonio/follow.h>
-#include <asperity/gonio/known_facets.h>
+#include <asperity/gonio/layer_of_sums.h>
+#include <asperity/tracing/engine.h>
 
 #include <algorithm>
 
@@ -29,14 +29,15 @@ class OwnRival : public Rival {
   public:
     OwnRival(const Heightfield& surface, int threads)
         : begin_(wall_seconds()),
-          surface_(surface),
-          tracer_(surface, threads),
           fresnel_(OpticsSettings{}),
           detector_(detector_settings()),
+          run_(threads),
+          engine_(
+              engines().front().make({surface, fresnel_, detector_, RunSettings{}.bounces}, run_)),
           build_seconds_(wall_seconds() - begin_) {}
 
     std::string name() const override { return "asperity"; }
-    std::size_t memory_bytes() const override { return tracer_.memory_bytes(); }
+    std::size_t memory_bytes() const override { return engine_->memory_bytes(); }
     double build_seconds() const override { return build_seconds_; }
     bool follows_points() const override { return false; }
 
@@ -44,30 +45,24 @@ class OwnRival : public Rival {
         const std::uint64_t rays = workload.own_paths;
         const std::uint64_t batches =
             std::max(std::min(kBatches, rays), (rays + kLargestBatch - 1) / kLargestBatch);
-        const int orders = DetectorSettings{}.orders;
+        const SumShape shape{.cells = static_cast<std::size_t>(detector_.cells()),
+                             .orders = static_cast<std::size_t>(DetectorSettings{}.orders),
+                             .bounces = static_cast<std::size_t>(workload.bounces)};
         const Incidence light{1, radians(workload.theta_deg), radians(kPhiDeg), false};
-        Scene scene{tracer_, fresnel_, detector_, workload.bounces, false};
-        KnownFacets known;
-        if (KnownFacets::pay(tracer_, rays)) known = KnownFacets(scene, light, Run(1));
-        scene.known = &known;
-        LayerSums layer_sums(detector_.cells(), 1, orders, workload.bounces,
-                             (rays + batches - 1) / batches, &known.light());
-        Follower follower;
-        BatchSums sums(detector_.cells(), 1, orders, workload.bounces);
+        constexpr auto kPattern = LaunchPattern::LowDiscrepancy;
+        Run run(1);
+        const auto lit = engine_->light(light, kPattern, rays, run, 1);
+        const auto worker = engine_->worker();
+        LayerSums layer_sums(shape, (rays + batches - 1) / batches);
+        BatchSums sums(shape);
         for (std::uint64_t b = 0; b < batches; ++b) {
             const std::uint64_t size = rays / batches + (b < rays % batches ? 1 : 0);
-            const LaunchBatch batch(surface_, static_cast<double>(tracer_.max_height()), light,
-                                    LaunchPattern::LowDiscrepancy, size, workload.seed, 0,
-                                    static_cast<std::uint32_t>(b));
-            for (std::uint64_t part = 0; part < Follower::portions(batch); ++part)
-                follower.follow(scene, batch, part, sums);
-            follower.finish(scene, sums);
-            layer_sums.add(sums);
+            lit->trace({kPattern, size, workload.seed, 0, static_cast<std::uint32_t>(b)}, *worker,
+                       sums, run);
+            layer_sums += sums;
             sums.clear();
         }
-        Layer layer;
-        layer_sums.write(layer);
-        return tally_of(layer);
+        return tally_of(layer_of(light, layer_sums));
     }
 
   private:
@@ -88,10 +83,10 @@ class OwnRival : public Rival {
     }
 
     double begin_;
-    const Heightfield& surface_;
-    WideTracer tracer_;
     Fresnel fresnel_;
     Detector detector_;
+    Run run_;
+    std::unique_ptr<Engine> engine_;
     double build_seconds_;
 };
 

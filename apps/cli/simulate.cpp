@@ -14,10 +14,10 @@
 #include <asperity/core/error.h>
 #include <asperity/formats/heights/surface_files.h>
 #include <asperity/formats/results/result_file.h>
-#include <asperity/gonio/launch.h>
 #include <asperity/gonio/measure.h>
 #include <asperity/measured/compare.h>
 #include <asperity/optics/fresnel.h>
+#include <asperity/tracing/launch.h>
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads the #include lines of a source tree and fails on one that runs against the data.
 
-    core <- params <- optics, surface <- tracing <- gonio <- measured <- formats, pictures <- apps
+    core <- params <- optics, surface, detector <- tracing <- gonio <- measured <- formats, pictures <- apps
     core <- optics, surface <- bsdf <- measured, render
 
 A room of src/asperity, a folder or the folder of a kind of format, includes only itself and what
@@ -23,20 +23,21 @@ MAY_SEE = {
     "params": {"core"},
     "optics": {"core", "params"},
     "surface": {"core", "params"},
-    "tracing": {"core", "optics", "surface"},
-    "gonio": {"core", "params", "optics", "surface", "tracing"},
+    "detector": {"core"},
+    "tracing": {"core", "optics", "surface", "detector"},
+    "gonio": {"core", "params", "optics", "surface", "tracing", "detector"},
     "bsdf": {"core", "params", "optics", "surface"},
-    "measured": {"core", "optics", "surface", "tracing", "gonio", "bsdf"},
+    "measured": {"core", "optics", "surface", "tracing", "gonio", "bsdf", "detector"},
     "render": {"core", "optics", "surface", "bsdf"},
     "formats": {"core"},
     "formats/exr": {"core", "formats"},
     "formats/heights": {"core", "surface", "formats", "formats/exr"},
     "formats/images": {"core", "render", "formats", "formats/exr"},
     "formats/models": {"core", "render", "formats"},
-    "formats/results": {"core", "params", "optics", "surface", "gonio", "formats"},
+    "formats/results": {"core", "params", "optics", "surface", "gonio", "formats", "detector"},
     "formats/bsdfs": {"core", "gonio", "bsdf", "measured", "formats", "formats/exr",
-                      "formats/results"},
-    "pictures": {"core", "surface", "tracing", "gonio", "bsdf", "measured", "render", "formats"},
+                      "formats/results", "detector"},
+    "pictures": {"core", "surface", "tracing", "gonio", "bsdf", "measured", "render", "formats", "detector"},
 }
 
 # First folder, or the whole name, of the headers that apps must leave to the library.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <asperity/core/vec.h>
-#include <asperity/gonio/detector.h>
+#include <asperity/detector/detector.h>
 #include <asperity/gonio/measurement.h>
 #include <asperity/pictures/layer_view.h>
 #include <asperity/render/camera.h>

@@ -3,7 +3,7 @@
 
 #include "scene_lines.h"
 
-#include <asperity/gonio/detector.h>
+#include <asperity/detector/detector.h>
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <asperity/gonio/detector.h>
+#include <asperity/detector/detector.h>
 #include <asperity/pictures/layer_view.h>
 
 #include <QImage>

@@ -5,8 +5,8 @@
 #include "paths_overlay.h"
 
 #include <asperity/core/directions.h>
-#include <asperity/gonio/launch.h>
 #include <asperity/pictures/colour_map.h>
+#include <asperity/tracing/launch.h>
 
 #include <QFontMetricsF>
 

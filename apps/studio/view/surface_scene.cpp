@@ -8,7 +8,7 @@
 #include "surface_labels.h"
 
 #include <asperity/core/directions.h>
-#include <asperity/gonio/launch.h>
+#include <asperity/tracing/launch.h>
 
 #include <QEvent>
 #include <QKeyEvent>

@@ -13,6 +13,7 @@ enum class ErrorCode {
     InvalidInput = 3,  ///< a file whose content is not what it claims to be
     InputOutput = 4,   ///< the operating system refused to open, read, write or rename
     OutOfMemory = 5,   ///< more memory needed than there is
+    Account = 6,       ///< energy is not accounted for: a fault of this program or the machine
     Stopped = 130,     ///< the user asked to stop
 };
 

@@ -1,44 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <asperity/detector/detector.h>
+#include <asperity/detector/illumination.h>
 #include <asperity/optics/optics_settings.h>
 #include <asperity/surface/surface_settings.h>
 
 #include <cstdint>
-#include <vector>
+#include <string>
 
 namespace asperity {
-
-/// Where the light comes from.
-struct IlluminationSettings {
-    /// Thesis layers: layer k of `layers` stands at elevation 90 k / layers degrees; the last one
-    /// is normal incidence. Used when theta_deg is empty.
-    int layers = 15;
-    std::vector<double> theta_deg;  ///< fixed polar angles, 0 <= . < 90
-    std::vector<double> phi_deg = {
-        0.0};                ///< azimuths the light comes from; every theta x every phi
-    bool isotropic = false;  ///< azimuth random per ray, outgoing azimuth relative to it
-};
-
-/// How the hemisphere is cut into cells; see Detector.
-enum class DetectorKind {
-    LatLong,    ///< rows equal in theta: the upper half of the thesis' sky-map (eq. 4.5)
-    EqualArea,  ///< rows equal in sin^2 theta: every cell the same projected solid angle
-};
-
-struct DetectorSettings {
-    DetectorKind kind = DetectorKind::LatLong;
-    int resolution = 256;  ///< Texture Resolution R: R columns, R / 2 rows
-    int orders =
-        4;  ///< bounce orders kept apart per cell; the last one holds all higher orders too
-};
-
-/// How launch points are spread over the tile.
-enum class LaunchPattern {
-    LowDiscrepancy,  ///< a sheared lattice, shifted at random once a batch
-    Stratified,      ///< one jittered point per stratum (thesis eq. 3.3)
-    Random,          ///< independent points
-};
 
 struct RunSettings {
     /// Camera Jitter J: launch points per surface cell and layer; see default_jitter().
@@ -49,6 +20,7 @@ struct RunSettings {
     std::uint64_t max_rays = 0;  ///< per layer, for `until`; 0: 256 times the first estimate
     int bounces = 16;            ///< Ray Bounces B: reflections a ray may make, >= 1
     LaunchPattern launch = LaunchPattern::LowDiscrepancy;
+    std::string engine = "wide";  ///< as tracing/engine.h lists them
     int batches = 16;  ///< independent batches a layer, >= 2, from which errors are estimated
     std::uint64_t seed = 1;
 };

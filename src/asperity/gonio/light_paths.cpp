@@ -6,8 +6,8 @@
 #include <asperity/core/energy.h>
 #include <asperity/core/error.h>
 #include <asperity/core/parallel.h>
-#include <asperity/gonio/detector.h>
-#include <asperity/gonio/launch.h>
+#include <asperity/detector/detector.h>
+#include <asperity/tracing/launch.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -79,10 +79,10 @@ class LightOfLayer {
         if (found == light.end())
             throw Error(ErrorCode::Usage, fmt::format("there is no layer {}", layer), "layer");
         const auto stream = static_cast<std::uint32_t>(found - light.begin());
-        return {tracer.surface(), static_cast<double>(tracer.max_height()),
-                *found,           LaunchPattern::Random,
-                kMaxRaysPerLayer, experiment.run.seed,
-                stream,           0};
+        return {tracer.surface(),
+                double{tracer.max_height()},
+                *found,
+                {LaunchPattern::Random, kMaxRaysPerLayer, experiment.run.seed, stream, 0}};
     }
 
     Vec3 position(const Ray& ray) const {

@@ -17,6 +17,11 @@ int Measurement::orders() const {
     return std::min(experiment.detector.orders, experiment.run.bounces);
 }
 
+SumShape Measurement::shape() const {
+    return {index(detector.cells()), index(detector.sides()), index(channels()), 1,
+            index(orders()),         index(bounces())};
+}
+
 double Measurement::energy(const Layer& layer, int order, int channel, int cell) const {
     const std::size_t slice = index(order) * index(channels()) + index(channel);
     return energy_fraction(layer.energy[slice * index(detector.cells()) + index(cell)], layer.rays);

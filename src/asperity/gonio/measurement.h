@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <asperity/gonio/detector.h>
+#include <asperity/detector/detector.h>
+#include <asperity/detector/layer_sums.h>
 #include <asperity/gonio/experiment.h>
 #include <asperity/surface/statistics.h>
 
@@ -11,11 +12,23 @@
 
 namespace asperity {
 
+/// What the errors of a layer come from, so that more batches can be added to it: sums of squares
+/// over batches, see LayerSums. Index order as in the Layer's arrays.
+struct LayerSpread {
+    std::uint64_t largest_batch = 0;         ///< rays
+    std::vector<LayerSums::Wide> squares;    ///< like stderr_energy; empty: not known
+    std::vector<std::uint64_t> stretched;    ///< likewise, or empty
+    std::vector<LayerSums::Spread> bounces;  ///< like escaped_by_bounce
+    std::vector<LayerSums::Spread> albedo;   ///< like stderr_albedo
+};
+
 /// Light that left the surface for one incident direction, sorted by outgoing direction.
 ///
 /// Energies are integers in units of 2^-32 of a launched ray (core/energy.h). Index order of
-/// `energy`: [(order * channels + channel) * cells + cell], order 0 = left after one reflection;
-/// the last order holds all higher ones too. Per channel
+/// `energy`: [((side * orders + order) * values + value) * cells + cell], value = channel *
+/// elements
+/// + element; side 0 is what is reflected, element 0 the energy, and today there are no others.
+/// Order 0 = left after one reflection; the last order holds all higher ones too. Per channel
 ///     rays * 2^32 = escaped + absorbed + truncated + edge,   escaped = sum of `energy`.
 struct Layer {
     int number = 0;                 ///< thesis layer, 1 .. N; counts up from 1 for fixed angles
@@ -37,6 +50,7 @@ struct Layer {
     std::vector<float> stderr_energy;   ///< [channel * cells + cell], fraction of launched energy
     std::vector<double> stderr_albedo;  ///< per channel
     std::vector<double> stderr_albedo_by_bounce;  ///< like escaped_by_bounce
+    LayerSpread spread;
 };
 
 /// The result of a run: an experiment and what came out of it.
@@ -61,6 +75,7 @@ struct Measurement {
     int channels() const { return static_cast<int>(channel_names.size()); }
     int orders() const;  ///< bounce orders kept apart per cell
     int bounces() const { return experiment.run.bounces; }
+    SumShape shape() const;
 
     /// Energy of one cell over all orders, as a fraction of the launched energy.
     double energy(const Layer& layer, int channel, int cell) const;

@@ -2,6 +2,7 @@
 #include <asperity/gonio/measurement_check.h>
 
 #include <asperity/core/energy.h>
+#include <asperity/core/error.h>
 #include <asperity/optics/fresnel.h>
 #include <fmt/format.h>
 
@@ -9,12 +10,8 @@
 #include <optional>
 #include <span>
 
-namespace asperity::io {
+namespace asperity {
 namespace {
-
-std::size_t size(int count) {
-    return static_cast<std::size_t>(count);
-}
 
 // Nothing when the sum does not fit 64 bits. Both halves of the numbers are summed by themselves,
 // so that no addition has to be looked at.
@@ -35,53 +32,75 @@ bool detector_fits(const Measurement& m) {
         expected.columns() != m.detector.columns())
         return false;
     for (int row = 0; row <= expected.rows(); ++row)
-        if (!(std::abs(expected.theta_edge(row) - m.detector.theta_edge(row)) <= kEdgeTolerance))
+        if (!(std::abs(expected.theta_edge(row) - m.detector.theta_edge(row)) <=
+              io::kEdgeTolerance))
             return false;
     return true;
 }
 
 bool sizes_fit(const Measurement& m, const Layer& layer) {
-    const std::size_t channels = size(m.channels()), cells = size(m.detector.cells());
-    const std::size_t by_bounce = channels * size(m.bounces());
-    return layer.energy.size() == size(m.orders()) * channels * cells &&
-           layer.escaped.size() == channels && layer.absorbed.size() == channels &&
-           layer.truncated.size() == channels && layer.edge.size() == channels &&
-           layer.escaped_by_bounce.size() == by_bounce &&
-           layer.stderr_energy.size() == channels * cells &&
-           layer.stderr_albedo.size() == channels &&
-           layer.stderr_albedo_by_bounce.size() == by_bounce;
+    const SumShape shape = m.shape();
+    const std::size_t channels = shape.channels, values = shape.sides * shape.values();
+    const std::size_t by_bounce = values * shape.bounces, places = values * shape.cells;
+    const LayerSpread& spread = layer.spread;
+    const bool spread_fits =
+        spread.squares.empty() ||
+        (spread.squares.size() == places && spread.bounces.size() == by_bounce &&
+         spread.albedo.size() == values &&
+         (spread.stretched.empty() || spread.stretched.size() == places));
+    return layer.energy.size() == shape.orders * places && layer.escaped.size() == values &&
+           layer.absorbed.size() == channels && layer.truncated.size() == channels &&
+           layer.edge.size() == channels && layer.escaped_by_bounce.size() == by_bounce &&
+           layer.stderr_energy.size() == places && layer.stderr_albedo.size() == values &&
+           layer.stderr_albedo_by_bounce.size() == by_bounce && spread_fits;
 }
 
-// Energy of a channel over all orders and cells.
-std::optional<std::uint64_t> sum_of_cells(const Measurement& m, const Layer& layer, int channel) {
-    const std::size_t cells = size(m.detector.cells());
+// Energy of a value on one side over all orders and cells.
+std::optional<std::uint64_t> sum_of_cells(const Layer& layer, const SumShape& shape,
+                                          std::size_t side, std::size_t value) {
     std::uint64_t total = 0;
-    for (int order = 0; order < m.orders(); ++order) {
-        const std::size_t slice = size(order) * size(m.channels()) + size(channel);
-        const auto part = sum(std::span(layer.energy).subspan(slice * cells, cells));
+    for (std::size_t order = 0; order < shape.orders; ++order) {
+        const std::size_t slice = (side * shape.orders + order) * shape.values() + value;
+        const auto part = sum(std::span(layer.energy).subspan(slice * shape.cells, shape.cells));
         if (!part || __builtin_add_overflow(total, *part, &total)) return std::nullopt;
     }
     return total;
 }
 
-std::string imbalance(const Measurement& m, const Layer& layer, int channel) {
-    const std::size_t c = size(channel);
-    const std::uint64_t escaped = layer.escaped[c];
-    const std::uint64_t fates[] = {escaped, layer.absorbed[c], layer.truncated[c], layer.edge[c]};
-    if (layer.rays > kMaxRaysPerLayer) return fmt::format("{} rays are too many", layer.rays);
+std::string imbalance(const Layer& layer, const SumShape& shape, std::size_t channel) {
+    std::vector<std::uint64_t> fates = {layer.absorbed[channel], layer.truncated[channel],
+                                        layer.edge[channel]};
+    for (std::size_t side = 0; side < shape.sides; ++side) {
+        const std::size_t value = channel * shape.elements, k = side * shape.values() + value;
+        const std::uint64_t escaped = layer.escaped[k];
+        if (sum_of_cells(layer, shape, side, value) != escaped)
+            return "escaped energy is not the sum over the cells";
+        if (sum(std::span(layer.escaped_by_bounce).subspan(k * shape.bounces, shape.bounces)) !=
+            escaped)
+            return "escaped energy is not the sum over the bounces";
+        fates.push_back(escaped);
+    }
     if (sum(fates) != layer.rays * kRayEnergy)
         return "launched energy is not escaped + absorbed + truncated + edge";
-    if (sum_of_cells(m, layer, channel) != escaped)
-        return "escaped energy is not the sum over the cells";
-    const auto bounces =
-        std::span(layer.escaped_by_bounce).subspan(c * size(m.bounces()), size(m.bounces()));
-    if (sum(bounces) != escaped) return "escaped energy is not the sum over the bounces";
     return {};
 }
 
 }  // namespace
 
-std::string contradiction(const Measurement& m) {
+std::string imbalance(const Layer& layer, const SumShape& shape) {
+    if (layer.rays > kMaxRaysPerLayer) return fmt::format("{} rays are too many", layer.rays);
+    for (std::size_t channel = 0; channel < shape.channels; ++channel)
+        if (const std::string why = imbalance(layer, shape, channel); !why.empty())
+            return fmt::format("channel {}: {}", channel + 1, why);
+    return {};
+}
+
+void check_account(const Layer& layer, const SumShape& shape) {
+    if (const std::string why = imbalance(layer, shape); !why.empty())
+        throw Error(ErrorCode::Account, why, fmt::format("layer {}", layer.number));
+}
+
+std::string io::contradiction(const Measurement& m) {
     if (m.channels() < 1 || m.channels() > kMaxChannels)
         return fmt::format("{} channels are not in 1 .. {}", m.channels(), kMaxChannels);
     if (!detector_fits(m)) return "the detector does not fit the experiment";
@@ -92,11 +111,9 @@ std::string contradiction(const Measurement& m) {
         if (!sizes_fit(m, layer)) return in_layer("an array has the wrong size");
         if (!(layer.theta_i >= 0 && layer.theta_i < 0.5 * kPi && std::isfinite(layer.phi_i)))
             return in_layer("no incident direction");
-        for (int channel = 0; channel < m.channels(); ++channel)
-            if (const auto why = imbalance(m, layer, channel); !why.empty())
-                return in_layer(fmt::format("channel {}: {}", m.channel_names[size(channel)], why));
+        if (const std::string why = imbalance(layer, m.shape()); !why.empty()) return in_layer(why);
     }
     return {};
 }
 
-}  // namespace asperity::io
+}  // namespace asperity

@@ -5,7 +5,18 @@
 
 #include <string>
 
-namespace asperity::io {
+namespace asperity {
+
+/// Why the energy of a layer is not accounted for to the last unit, in one line; empty when it is:
+/// for every channel
+///     rays * 2^32 = escaped + absorbed + truncated + edge
+///     escaped = sum of `energy` = sum of `escaped_by_bounce`.
+/// The arrays must have the sizes of `shape`.
+std::string imbalance(const Layer& layer, const SumShape& shape);
+/// Throws Error(Account) if there is a reason.
+void check_account(const Layer& layer, const SumShape& shape);
+
+namespace io {
 
 /// Edges of the detector are computed anew when a file is read; two mathematics libraries may
 /// differ by this much [rad].
@@ -17,4 +28,5 @@ inline constexpr double kEdgeTolerance = 1e-12;
 ///     escaped = sum of `energy` = sum of `escaped_by_bounce`.
 std::string contradiction(const Measurement& measurement);
 
-}  // namespace asperity::io
+}  // namespace io
+}  // namespace asperity

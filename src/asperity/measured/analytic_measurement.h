@@ -5,8 +5,8 @@
 
 #include <asperity/core/directions.h>
 #include <asperity/core/energy.h>
-#include <asperity/gonio/launch.h>
 #include <asperity/measured/compare.h>
+#include <asperity/tracing/launch.h>
 
 namespace asperity::test {
 

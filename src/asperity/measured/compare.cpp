@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
-#include <asperity/gonio/launch.h>
 #include <asperity/measured/compare.h>
+#include <asperity/tracing/launch.h>
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 
 #include <asperity/bsdf/bsdf.h>
 #include <asperity/core/directions.h>
-#include <asperity/gonio/detector.h>
+#include <asperity/detector/detector.h>
 
 #include <algorithm>
 #include <array>

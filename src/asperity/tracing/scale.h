@@ -7,10 +7,6 @@
 
 namespace asperity {
 
-/// Below this polar angle [rad] light comes straight down: over any surface that check_scale() lets
-/// pass it moves aside by less than a ten-thousandth of a cell.
-inline constexpr double kStraightDown = 1e-12;
-
 /// Throws Error(InvalidInput, name of the surface) for heights from `lowest` to `highest` that
 /// light cannot be followed over, whatever the time: that range over more than 2^24 cells, where
 /// single precision cannot tell one cell from the next, or that light at one of the polar angles

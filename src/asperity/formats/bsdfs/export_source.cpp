@@ -3,10 +3,10 @@
 #include <asperity/core/error.h>
 #include <asperity/core/parse_number.h>
 #include <asperity/core/version.h>
+#include <asperity/detector/illumination.h>
 #include <asperity/formats/bsdfs/export_source.h>
 #include <asperity/formats/results/experiment_text.h>
 #include <asperity/formats/results/result_file.h>
-#include <asperity/gonio/launch.h>
 #include <asperity/measured/tabulated.h>
 
 #include <fmt/format.h>

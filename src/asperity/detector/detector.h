@@ -2,11 +2,23 @@
 #pragma once
 
 #include <asperity/core/directions.h>
-#include <asperity/gonio/experiment.h>
 
 #include <vector>
 
 namespace asperity {
+
+/// How the hemisphere is cut into cells; see Detector.
+enum class DetectorKind {
+    LatLong,    ///< rows equal in theta: the upper half of the thesis' sky-map (eq. 4.5)
+    EqualArea,  ///< rows equal in sin^2 theta: every cell the same projected solid angle
+};
+
+struct DetectorSettings {
+    DetectorKind kind = DetectorKind::LatLong;
+    int resolution = 256;  ///< Texture Resolution R: R columns, R / 2 rows
+    int orders =
+        4;  ///< bounce orders kept apart per cell; the last one holds all higher orders too
+};
 
 /// The hemisphere of outgoing directions, cut into rows of polar angle and columns of azimuth.
 ///
@@ -22,6 +34,8 @@ class Detector {
     int rows() const { return rows_; }
     int columns() const { return columns_; }
     int cells() const { return rows_ * columns_; }
+    /// Hemispheres: that of reflected light.
+    int sides() const { return 1; }
 
     /// Cell of the unit vector `wo`; wo.z < 0 counts as the horizon.
     int cell_of(Vec3 wo) const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/random.h>
-#include <asperity/gonio/detector.h>
+#include <asperity/detector/detector.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <asperity/core/vec.h>
-#include <asperity/gonio/detector.h>
+#include <asperity/detector/detector.h>
 #include <asperity/tracing/engines/wide/padded_heights.h>
 #include <asperity/tracing/engines/wide/wide.h>
 #include <asperity/tracing/engines/wide/wide_grid.h>

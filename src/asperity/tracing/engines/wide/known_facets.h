@@ -2,12 +2,36 @@
 #pragma once
 
 #include <asperity/core/run.h>
-#include <asperity/gonio/follow.h>
+#include <asperity/tracing/engines/wide/follow.h>
 
 #include <cstdint>
 #include <vector>
 
 namespace asperity {
+
+/// Where the energy of rays goes that are only counted: the same for each.
+class CountedLight {
+  public:
+    CountedLight() = default;
+    /// From how much goes into each cell, [cell * channels + channel], of `total` in each channel.
+    CountedLight(const std::vector<std::uint64_t>& sums, std::size_t channels, std::uint64_t total);
+
+    /// Cells that take a share, in order.
+    const std::vector<std::uint32_t>& cells() const { return cells_; }
+    /// Energy of a ray that goes into cells()[k].
+    std::uint64_t energy(std::size_t k, std::size_t channel) const {
+        return energy_[k * channels_ + channel];
+    }
+    /// Adds what `count` rays send there.
+    void spread(std::uint64_t count, BatchSums& sums) const {
+        sums.escape_spread(count, cells_, energy_);
+    }
+
+  private:
+    std::size_t channels_ = 1;
+    std::vector<std::uint32_t> cells_;
+    std::vector<std::uint64_t> energy_;  ///< [k * channels + channel]
+};
 
 /// Facets that lie in the light of a layer as a whole and mirror it out, wherever on them it falls.
 ///
@@ -22,7 +46,7 @@ class KnownFacets {
     /// Looks at all facets, on so many threads, until the run is stopped: what was not looked at is
     /// not known. Knows none when a look here and there finds too few. Cost: less than a ray a
     /// cell; a byte a cell. Depends on neither the number of threads nor the instruction set.
-    KnownFacets(const Scene& scene, const Incidence& incidence, const Run& run, int threads = 1);
+    KnownFacets(const Scene& scene, const Run& run, int threads = 1);
 
     /// Whether `rays` of a layer are worth the look: one a cell, on a tile that fits the memory.
     static bool pay(const WideTracer& tracer, std::uint64_t rays);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <asperity/gonio/detector.h>
+#include <asperity/detector/detector.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <asperity/gonio/follow.h>
+#include <asperity/tracing/engines/wide/follow.h>
 
 #include <asperity/core/directions.h>
-#include <asperity/gonio/known_facets.h>
-#include <asperity/gonio/path_kernels.h>
+#include <asperity/tracing/engines/wide/known_facets.h>
+#include <asperity/tracing/engines/wide/path_kernels.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,64 +28,83 @@ Vec3 direction_of_light(const WideTracer& tracer, const Incidence& light) {
     return d;
 }
 
-std::uint64_t Follower::portions(const LaunchBatch& batch) {
-    const auto parts = [](std::uint64_t count, std::uint64_t of) { return (count + of - 1) / of; };
-    switch (batch.order()) {
-        case LaunchBatch::Order::Lines:
-            return batch.stripes();
-        case LaunchBatch::Order::Rows:
-            return parts(batch.rows(), kRowsOfPortion);
-        case LaunchBatch::Order::Single:
-            break;
-    }
-    return parts(batch.rays(), kWave);
-}
-
-std::uint64_t Follower::follow(const Scene& scene, const LaunchBatch& batch, std::uint64_t portion,
-                               BatchSums& sums) {
+bool Follower::follow(const Scene& scene, const BatchRequest& request, BatchSums& sums, Run& run) {
     const std::size_t channels =
         scene.fresnel.perfect() ? 0 : static_cast<std::size_t>(scene.fresnel.channels());
     weights_.resize(channels);
     reflectance_.resize(channels);
-    direction_ = direction_of_light(scene.tracer, batch.incidence());
-    const std::uint64_t rays =
-        batch.order() == LaunchBatch::Order::Lines  ? follow_lines(scene, batch, portion, sums)
-        : batch.order() == LaunchBatch::Order::Rows ? follow_rows(scene, batch, portion, sums)
-                                                    : follow_each(scene, batch, portion, sums);
+    weights_of_.assign(weights_.begin(), weights_.end());
+    direction_ = direction_of_light(scene.tracer, scene.light);
+    // What a stopped run has left behind
+    scene.tracer.clear(wave_);
+    counted_ = 0;
+    if (SweepBatch::possible(scene.surface, scene.light, request.pattern))
+        return follow_lines(scene, SweepBatch(scene.surface, scene.light, request), sums, run);
+    const LaunchBatch batch(scene.surface, double{scene.tracer.max_height()}, scene.light, request);
+    const bool in_rows = request.pattern == LaunchPattern::LowDiscrepancy &&
+                         scene.tracer.periodic() && !scene.light.isotropic;
+    return in_rows ? follow_rows(scene, batch, sums, run) : follow_each(scene, batch, sums, run);
+}
+
+bool Follower::follow_lines(const Scene& scene, const SweepBatch& batch, BatchSums& sums,
+                            Run& run) {
+    for (std::uint64_t s = 0; s < batch.stripes(); ++s) {
+        if (!run.keep_going()) return false;
+        // All stripes of a pass go the same way; what waits to land has gone that of the one before
+        if (batch.begins_pass(s)) {
+            follow_launched(scene, sums);
+            scene.tracer.start(line_, batch.offset(s), direction_);
+        }
+        run.advance(launch_stripe(scene, batch.stripe(s), sums));
+    }
+    finish(scene, sums);
+    return true;
+}
+
+bool Follower::follow_rows(const Scene& scene, const LaunchBatch& batch, BatchSums& sums,
+                           Run& run) {
+    for (std::uint64_t r = 0; r < batch.rows(); r += kRowsOfPortion) {
+        if (!run.keep_going()) return false;
+        run.advance(launch_rows(scene, batch, r, sums));
+    }
+    finish(scene, sums);
+    return true;
+}
+
+bool Follower::follow_each(const Scene& scene, const LaunchBatch& batch, BatchSums& sums,
+                           Run& run) {
+    for (std::uint64_t first = 0; first < batch.rays(); first += kWave) {
+        if (!run.keep_going()) return false;
+        const std::uint64_t last = std::min(first + kWave, batch.rays());
+        launch_each(scene, batch, first, last);
+        follow_wave(scene, static_cast<std::size_t>(last - first), false, sums);
+        sums.rays += last - first;
+        sums.segments += last - first;
+        run.advance(last - first);
+    }
+    return true;
+}
+
+/// Launches a stripe of lines, and follows the rays whenever they fill a wave.
+std::uint64_t Follower::launch_stripe(const Scene& scene, LaunchStripe stripe, BatchSums& sums) {
+    const CountedFacets known = scene.known ? scene.known->counted() : CountedFacets{};
+    while (!scene.tracer.launch(line_, stripe, known, wave_)) follow_launched(scene, sums);
+    sums.truncate_launched(stripe.under_way());
+    const auto rays = std::accumulate(stripe.rays, stripe.rays + stripe.lines, std::uint64_t{0});
     sums.rays += rays;
     sums.segments += rays;
     return rays;
 }
 
-void Follower::finish(const Scene& scene, BatchSums& sums) {
-    follow_launched(scene, sums);
-}
-
-/// Launches a stripe of lines, and follows the rays whenever they fill a wave.
-std::uint64_t Follower::follow_lines(const Scene& scene, const LaunchBatch& batch,
-                                     std::uint64_t portion, BatchSums& sums) {
-    const CountedFacets known = scene.known ? scene.known->counted() : CountedFacets{};
-    // All stripes of a pass go the same way; what waits to land has gone that of the one before
-    if (batch.begins_pass(portion)) {
-        follow_launched(scene, sums);
-        scene.tracer.start(line_, batch.offset(portion), direction_);
-    }
-    LaunchStripe stripe = batch.stripe(portion);
-    while (!scene.tracer.launch(line_, stripe, known, wave_)) follow_launched(scene, sums);
-    sums.truncate_launched(stripe.under_way());
-    return std::accumulate(stripe.rays, stripe.rays + stripe.lines, std::uint64_t{0});
-}
-
 /// Launches rows of rays straight down, and follows the rays whenever they fill a wave.
-std::uint64_t Follower::follow_rows(const Scene& scene, const LaunchBatch& batch,
-                                    std::uint64_t portion, BatchSums& sums) {
+std::uint64_t Follower::launch_rows(const Scene& scene, const LaunchBatch& batch,
+                                    std::uint64_t first, BatchSums& sums) {
     const WideTracer& tracer = scene.tracer;
     const CountedFacets known = scene.known ? scene.known->counted() : CountedFacets{};
     const int cells = tracer.cells_x();
     std::uint64_t rays = 0;
     rows_.clear();
-    for (std::uint64_t r = portion * kRowsOfPortion;
-         r < std::min((portion + 1) * kRowsOfPortion, batch.rows()); ++r) {
+    for (std::uint64_t r = first; r < std::min(first + kRowsOfPortion, batch.rows()); ++r) {
         LaunchRow row = batch.row(r);
         if (tracer.mirrored()) {
             // The last ray comes first; rays of a row are all alike
@@ -111,23 +130,23 @@ std::uint64_t Follower::follow_rows(const Scene& scene, const LaunchBatch& batch
             }
         }
     }
+    sums.rays += rays;
+    sums.segments += rays;
     return rays;
 }
 
-std::uint64_t Follower::follow_each(const Scene& scene, const LaunchBatch& batch,
-                                    std::uint64_t portion, BatchSums& sums) {
-    const std::uint64_t first = portion * kWave, last = std::min(first + kWave, batch.rays());
-    launch_each(scene, batch, first, last);
-    follow_wave(scene, static_cast<std::size_t>(last - first), false, sums);
-    return last - first;
+/// Follows the rays that still wait, and spreads the light of those that were only counted.
+void Follower::finish(const Scene& scene, BatchSums& sums) {
+    follow_launched(scene, sums);
+    if (counted_ > 0) scene.known->light().spread(counted_, sums);
+    sums.reflections += counted_;
+    sums.segments += counted_;
 }
 
 /// Follows the rays of parallel light that have been launched.
 void Follower::follow_launched(const Scene& scene, BatchSums& sums) {
     // Some are only counted
-    if (wave_.counted > 0) sums.escape_counted(wave_.counted, scene.known->light());
-    sums.reflections += wave_.counted;
-    sums.segments += wave_.counted;
+    counted_ += wave_.counted;
     if (direction_.x != 0 || direction_.y != 0) scene.tracer.land(line_, direction_, wave_);
     for (std::size_t k = 0; k < wave_.points.count; ++k)
         wave_.points.path[k] = static_cast<std::int32_t>(k);
@@ -146,7 +165,7 @@ void Follower::follow_wave(const Scene& scene, std::size_t count, bool parallel,
         if (under_way == 0) break;
         // The bounce limit cuts a ray that would need one reflection more
         if (reflections == scene.bounces) {
-            sums.truncate(wave_.points.path, under_way, weights_);
+            sums.truncate(wave_.points.path, under_way, weights_of_);
             break;
         }
         // Mirror the others at their facets, and find the next facet or the way out
@@ -163,7 +182,7 @@ void Follower::launch_each(const Scene& scene, const LaunchBatch& batch, std::ui
     rays_.clear();
     for (std::uint64_t k = begin; k < end; ++k) {
         const Launch start = batch.launch(k);
-        if (scene.relative_azimuth) {
+        if (scene.light.isotropic) {
             cos_phi_[rays_.size()] = static_cast<float>(start.cos_phi_i);
             sin_phi_[rays_.size()] = static_cast<float>(start.sin_phi_i);
         }
@@ -194,12 +213,12 @@ void Follower::settle(const Scene& scene, int reflections, BatchSums& sums) {
     const Escapes& escapes = wave_.escapes;
     if (escapes.count > 0) {
         find_cells(escapes, scene.detector, scene.tracer.mirrored() ? -1.0f : 1.0f,
-                   scene.relative_azimuth ? &cos_phi_ : nullptr,
-                   scene.relative_azimuth ? &sin_phi_ : nullptr, cells_);
-        sums.escape(cells_, escapes.path, escapes.count, reflections, weights_);
+                   scene.light.isotropic ? &cos_phi_ : nullptr,
+                   scene.light.isotropic ? &sin_phi_ : nullptr, cells_);
+        sums.escape(0, reflections, cells_, escapes.path, escapes.count, weights_of_);
     }
-    sums.lose_at_edge(wave_.edge, wave_.edge_count, weights_);
-    sums.truncate(wave_.stuck, wave_.stuck_count, weights_);
+    sums.lose_at_edge(wave_.edge, wave_.edge_count, weights_of_);
+    sums.truncate(wave_.stuck, wave_.stuck_count, weights_of_);
     sums.stuck += wave_.stuck_count;
 }
 

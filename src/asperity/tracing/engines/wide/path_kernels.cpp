@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <asperity/gonio/path_kernels.h>
+#include <asperity/tracing/engines/wide/path_kernels.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE <asperity/gonio/path_kernels.cpp>
+#define HWY_TARGET_INCLUDE <asperity/tracing/engines/wide/path_kernels.cpp>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

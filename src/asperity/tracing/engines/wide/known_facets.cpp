@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <asperity/gonio/known_facets.h>
+#include <asperity/tracing/engines/wide/known_facets.h>
 
+#include <asperity/core/energy.h>
 #include <asperity/core/parallel.h>
-#include <asperity/gonio/path_kernels.h>
+#include <asperity/tracing/engines/wide/path_kernels.h>
 
 #include <algorithm>
 #include <bit>
@@ -28,6 +29,25 @@ std::uint64_t cells_of(const WideTracer& tracer) {
 
 }  // namespace
 
+CountedLight::CountedLight(const std::vector<std::uint64_t>& sums, std::size_t channels,
+                           std::uint64_t total)
+    : channels_(channels) {
+    // The sums so far are rounded, not each by itself, so that nothing is lost
+    std::vector<std::uint64_t> so_far(channels), given(channels);
+    for (std::size_t cell = 0; cell < sums.size() / channels; ++cell) {
+        const std::uint64_t* sum = &sums[cell * channels];
+        if (std::all_of(sum, sum + channels, [](std::uint64_t x) { return x == 0; })) continue;
+        cells_.push_back(static_cast<std::uint32_t>(cell));
+        for (std::size_t c = 0; c < channels; ++c) {
+            so_far[c] += sum[c];
+            const double share = static_cast<double>(so_far[c]) / static_cast<double>(total);
+            const std::uint64_t rounded = to_energy(share);
+            energy_.push_back(rounded - given[c]);
+            given[c] = rounded;
+        }
+    }
+}
+
 bool KnownFacets::pay(const WideTracer& tracer, std::uint64_t rays) {
     const std::uint64_t cells = cells_of(tracer);
     return tracer.periodic() && tracer.grid().horizon_pays &&
@@ -38,8 +58,8 @@ bool KnownFacets::pay(const WideTracer& tracer, std::uint64_t rays) {
 /// What one thread looks with: a row of facets of both kinds, and the light they take.
 class KnownFacets::Look {
   public:
-    Look(const Scene& scene, const Incidence& incidence)
-        : scene_(scene), direction_(direction_of_light(scene.tracer, incidence)) {
+    explicit Look(const Scene& scene)
+        : scene_(scene), direction_(direction_of_light(scene.tracer, scene.light)) {
         const std::size_t count = static_cast<std::size_t>(cells_x()) + FacetRow::kSlack;
         known_.resize(count);
         for (Facets& facets : both_) {
@@ -112,9 +132,8 @@ class KnownFacets::Look {
     std::vector<std::vector<float>> reflectance_;  ///< [channel]; none for perfect mirrors
 };
 
-KnownFacets::KnownFacets(const Scene& scene, const Incidence& incidence, const Run& run,
-                         int threads) {
-    const Look look(scene, incidence);
+KnownFacets::KnownFacets(const Scene& scene, const Run& run, int threads) {
+    const Look look(scene);
     if (!worthwhile(look, run)) return;
     swapped_ = scene.tracer.lines_along_x(look.direction());
     const int rows = swapped_ ? look.cells_x() : look.cells_y();

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/detector/batch_sums.h>
+
+#include <asperity/core/energy.h>
+
+#include <array>
+
+namespace asperity {
+
+namespace {
+
+std::size_t index(int a) {
+    return static_cast<std::size_t>(a);
+}
+
+/// Cells are fetched so many paths ahead.
+constexpr std::size_t kAhead = 48;
+
+}  // namespace
+
+BatchSums::BatchSums(const SumShape& shape)
+    : shape_(shape),
+      touched_((shape.places() + kBlock - 1) / kBlock),
+      escaped_by_bounce_(shape.sides * shape.values() * shape.bounces),
+      absorbed_(shape.channels),
+      truncated_(shape.channels),
+      edge_(shape.channels) {}
+
+void BatchSums::escape(std::size_t side, int order, const std::int32_t* cells,
+                       const std::int32_t* paths, std::size_t count, Weights weights) {
+    const std::size_t bounce = index(order - 1), kept = std::min(bounce, shape_.orders - 1);
+    const std::size_t values = shape_.values(), first_place = side * shape_.cells;
+    const std::uint8_t bit = bit_of(kept);
+    std::uint8_t* touched = touched_.data();
+    if (!weights.empty()) {
+        for (std::size_t k = 0; k < count; ++k)
+            touched[(first_place + index(cells[k])) / kBlock] |= bit;
+        energy_.resize(shape_.orders * shape_.places() * values);
+        std::uint64_t* sums = energy_.data() + (kept * shape_.places() + first_place) * values;
+        const Leaving leaving{side, bounce, cells, paths, count, weights};
+        // Colours at once, as this takes a good part of the time of a metal
+        std::size_t v = 0;
+        for (; v + 3 <= values; v += 3) escape_weighted<3>(leaving, v, sums + v);
+        for (; v < values; ++v) escape_weighted<1>(leaving, v, sums + v);
+        return;
+    }
+    count_.resize(shape_.orders * shape_.places());
+    std::uint32_t* counts = count_.data() + kept * shape_.places();
+    for (std::size_t k = 0; k < count; ++k) {
+        __builtin_prefetch(counts + first_place + cells[std::min(k + kAhead, count - 1)], 1);
+        const std::size_t place = first_place + index(cells[k]);
+        ++counts[place];
+        touched[place / kBlock] |= bit;
+    }
+    by_bounce(side, 0, bounce) += count * kRayEnergy;
+}
+
+template <std::size_t kCount>
+void BatchSums::escape_weighted(const Leaving& leaving, std::size_t first, std::uint64_t* sums) {
+    // Plain pointers, and copies of what does not change, for the innermost loop
+    std::array<const float*, kCount> weight;
+    for (std::size_t v = 0; v < kCount; ++v) weight[v] = leaving.weights[first + v];
+    const std::int32_t *cells = leaving.cells, *paths = leaving.paths;
+    const std::size_t values = shape_.values(), count = leaving.count;
+    std::array<std::uint64_t, kCount> total{};
+    for (std::size_t k = 0; k < count; ++k) {
+        __builtin_prefetch(sums + index(cells[std::min(k + kAhead, count - 1)]) * values, 1);
+        std::uint64_t* sum = sums + index(cells[k]) * values;
+        for (std::size_t v = 0; v < kCount; ++v) {
+            const std::uint64_t energy = to_energy(double{weight[v][paths[k]]});
+            sum[v] += energy;
+            total[v] += energy;
+        }
+    }
+    for (std::size_t v = 0; v < kCount; ++v) {
+        by_bounce(leaving.side, first + v, leaving.bounce) += total[v];
+        if ((first + v) % shape_.elements == 0)
+            absorbed_[(first + v) / shape_.elements] += count * kRayEnergy - total[v];
+    }
+}
+
+void BatchSums::escape_spread(std::uint64_t count, std::span<const std::uint32_t> places,
+                              std::span<const std::uint64_t> energy) {
+    if (count == 0) return;
+    const std::size_t values = shape_.values();
+    spread_.resize(shape_.places() * values);
+    for (std::size_t c = 0; c < shape_.channels; ++c) absorbed_[c] += count * kRayEnergy;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        touched_[places[k] / kBlock] |= bit_of(0);
+        const std::size_t side = places[k] / shape_.cells;
+        for (std::size_t v = 0; v < values; ++v) {
+            const std::uint64_t sum = count * energy[k * values + v];
+            spread_[places[k] * values + v] += sum;
+            by_bounce(side, v, 0) += sum;
+            if (v % shape_.elements == 0) absorbed_[v / shape_.elements] -= sum;
+        }
+    }
+}
+
+void BatchSums::truncate_launched(std::uint64_t count) {
+    for (std::uint64_t& energy : truncated_) energy += count * kRayEnergy;
+    stuck += count;
+}
+
+void BatchSums::settle(std::vector<std::uint64_t>& account, const std::int32_t* paths,
+                       std::size_t count, Weights weights) {
+    if (weights.empty()) {
+        account[0] += count * kRayEnergy;
+        return;
+    }
+    for (std::size_t c = 0; c < shape_.channels; ++c)
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::uint64_t energy = to_energy(double{weights[c * shape_.elements][paths[k]]});
+            account[c] += energy;
+            absorbed_[c] += kRayEnergy - energy;
+        }
+}
+
+void BatchSums::clear() {
+    const std::size_t order = shape_.places() * shape_.values();
+    const auto forget = [&](auto& sums, std::size_t orders) {
+        if (sums.empty()) return;
+        for_touched([&](std::size_t begin, std::size_t end, std::uint8_t bits) {
+            for (std::size_t o = 0; o < orders; ++o)
+                if (bits & bit_of(o)) std::fill_n(sums.data() + o * order + begin, end - begin, 0u);
+        });
+    };
+    forget(energy_, shape_.orders);
+    forget(count_, shape_.orders);
+    forget(spread_, 1);
+    std::fill(touched_.begin(), touched_.end(), std::uint8_t{0});
+    for (auto* account : {&escaped_by_bounce_, &absorbed_, &truncated_, &edge_})
+        std::fill(account->begin(), account->end(), std::uint64_t{0});
+    rays = segments = reflections = stuck = 0;
+}
+
+}  // namespace asperity

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/detector/layer_sums.h>
+
+#include <asperity/core/energy.h>
+#include <asperity/core/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace asperity {
+
+namespace {
+
+__extension__ using SignedWide = __int128;
+
+template <class T>
+void add_to(std::vector<T>& sum, const std::vector<T>& more) {
+    if (sum.empty()) sum.resize(more.size());
+    for (std::size_t k = 0; k < more.size(); ++k) sum[k] += more[k];
+}
+
+/// Batches have at most 2^20 rays, so what they hold fits a signed number, too.
+LayerSums::Wide square(std::uint64_t energy) {
+    const auto value = static_cast<std::int64_t>(energy);
+    return static_cast<LayerSums::Wide>(SignedWide{value} * value);
+}
+
+void add_to(LayerSums::Spread& spread, std::uint64_t scaled) {
+    spread.sum += scaled;
+    spread.squares += square(scaled);
+}
+
+void add_to(std::vector<LayerSums::Spread>& spreads, const std::vector<LayerSums::Spread>& more) {
+    for (std::size_t k = 0; k < more.size(); ++k) {
+        spreads[k].sum += more[k].sum;
+        spreads[k].squares += more[k].squares;
+    }
+}
+
+}  // namespace
+
+LayerSums::LayerSums(const SumShape& of, std::uint64_t largest)
+    : shape(of),
+      largest_batch(largest),
+      energy(of.orders * of.places() * of.values()),
+      escaped_by_bounce(of.sides * of.values() * of.bounces),
+      absorbed(of.channels),
+      truncated(of.channels),
+      edge(of.channels),
+      squares(of.places() * of.values()),
+      bounces(escaped_by_bounce.size()),
+      albedo(of.sides * of.values()) {}
+
+std::uint64_t LayerSums::scaled(std::uint64_t value, std::uint64_t of_rays) const {
+    if (of_rays == largest_batch) return value;
+    const SignedWide product =
+        SignedWide{static_cast<std::int64_t>(value)} * static_cast<std::int64_t>(largest_batch);
+    return static_cast<std::uint64_t>(
+        static_cast<std::int64_t>(product / static_cast<std::int64_t>(of_rays)));
+}
+
+LayerSums& LayerSums::operator+=(const BatchSums& b) {
+    ++batches;
+    rays += b.rays;
+    segments += b.segments;
+    reflections += b.reflections;
+    stuck += b.stuck;
+    add_to(absorbed, b.absorbed_);
+    add_to(truncated, b.truncated_);
+    add_to(edge, b.edge_);
+    add_to(escaped_by_bounce, b.escaped_by_bounce_);
+    add_spreads(b);
+    if (!b.energy_.empty())
+        add_places<1>(b, b.energy_);
+    else
+        add_places<kRayEnergy>(b, b.count_);
+    return *this;
+}
+
+void LayerSums::add_spreads(const BatchSums& b) {
+    for (std::size_t k = 0; k < bounces.size(); ++k)
+        add_to(bounces[k], scaled(b.escaped_by_bounce_[k], b.rays));
+    for (std::size_t k = 0; k < albedo.size(); ++k) {
+        const auto* first = &b.escaped_by_bounce_[k * shape.bounces];
+        add_to(albedo[k],
+               scaled(std::accumulate(first, first + shape.bounces, std::uint64_t{0}), b.rays));
+    }
+}
+
+template <std::uint64_t kUnit, class Value>
+void LayerSums::add_places(const BatchSums& b, const std::vector<Value>& paths) {
+    const bool smaller = b.rays != largest_batch;
+    if (smaller && stretched.empty()) stretched.resize(squares.size());
+    const std::size_t order = squares.size();
+    std::vector<std::uint64_t> of_block(BatchSums::kBlock * shape.values());
+    std::uint64_t* total = of_block.data();
+    b.for_touched([&](std::size_t begin, std::size_t end, std::uint8_t bits) {
+        // Orders by themselves, and all together
+        const std::size_t count = end - begin;
+        std::fill_n(total, count, std::uint64_t{0});
+        const auto add = [&](const auto* added, std::uint64_t unit, std::uint64_t* sums) {
+            for (std::size_t k = 0; k < count; ++k) {
+                sums[k] += added[k] * unit;
+                total[k] += added[k] * unit;
+            }
+        };
+        for (std::size_t o = 0; o < shape.orders && !paths.empty(); ++o)
+            if (bits & BatchSums::bit_of(o))
+                add(paths.data() + o * order + begin, kUnit, energy.data() + o * order + begin);
+        if (!b.spread_.empty() && (bits & BatchSums::bit_of(0)))
+            add(b.spread_.data() + begin, 1, energy.data() + begin);
+        // What their spread will be told from
+        if (smaller)
+            for (std::size_t k = 0; k < count; ++k) {
+                const std::uint64_t stretch = scaled(total[k], b.rays);
+                stretched[begin + k] += stretch - total[k];
+                total[k] = stretch;
+            }
+        for (std::size_t k = 0; k < count; ++k)
+            if (total[k] != 0) squares[begin + k] += square(total[k]);
+    });
+}
+
+LayerSums& LayerSums::operator+=(const LayerSums& other) {
+    if (shape != other.shape || largest_batch != other.largest_batch)
+        throw Error(ErrorCode::Usage, "sums of different layers cannot be added");
+    batches += other.batches;
+    rays += other.rays;
+    segments += other.segments;
+    reflections += other.reflections;
+    stuck += other.stuck;
+    add_to(energy, other.energy);
+    add_to(escaped_by_bounce, other.escaped_by_bounce);
+    add_to(absorbed, other.absorbed);
+    add_to(truncated, other.truncated);
+    add_to(edge, other.edge);
+    add_to(squares, other.squares);
+    add_to(stretched, other.stretched);
+    add_to(bounces, other.bounces);
+    add_to(albedo, other.albedo);
+    return *this;
+}
+
+LayerSums::Estimate LayerSums::estimate(const Spread& s) const {
+    // Standard error of the mean over K batches: sqrt((K sum e^2 - (sum e)^2) / (K - 1)) / K. The
+    // difference is exact: of batches of e <= 2^64 / K it is less than 2^126
+    const auto sum = static_cast<std::int64_t>(s.sum);
+    const bool negative = shape.elements > 1 && sum < 0;
+    const std::uint64_t size = negative ? 0 - s.sum : s.sum;
+    const double launched = static_cast<double>(kRayEnergy) * static_cast<double>(largest_batch) *
+                            static_cast<double>(batches);
+    Estimate e;
+    e.mean = (negative ? -static_cast<double>(size) : static_cast<double>(size)) / launched;
+    if (s.squares == 0) return e;
+    if (batches < 2) {
+        e.error = std::numeric_limits<double>::infinity();
+        return e;
+    }
+    const auto excess =
+        static_cast<double>(static_cast<SignedWide>(Wide{batches} * s.squares - Wide{size} * size));
+    e.error = std::sqrt(std::max(0.0, excess) / static_cast<double>(batches - 1)) / launched;
+    return e;
+}
+
+std::uint64_t LayerSums::over_all_orders(std::size_t k) const {
+    std::uint64_t sum = 0;
+    for (std::size_t o = 0; o < shape.orders; ++o) sum += energy[o * squares.size() + k];
+    return sum;
+}
+
+LayerSums::Estimate LayerSums::cell(std::size_t k) const {
+    const std::uint64_t stretch = stretched.empty() ? 0 : stretched[k];
+    return estimate({over_all_orders(k) + stretch, squares[k]});
+}
+
+LayerSums::Errors LayerSums::relative_errors() const {
+    Errors worst;
+    const std::size_t values = shape.values();
+    for (std::size_t a = 0; a < albedo.size(); a += shape.elements) {
+        const Estimate all = estimate(albedo[a]);
+        worst.albedo = std::max(worst.albedo, all.relative());
+        // The strongest cells of this side that together carry 90 % of the energy
+        const std::size_t first = a / values * shape.cells * values + a % values;
+        std::vector<Estimate> of_cells;
+        for (std::size_t c = 0; c < shape.cells; ++c) of_cells.push_back(cell(first + c * values));
+        std::sort(of_cells.begin(), of_cells.end(),
+                  [](const Estimate& x, const Estimate& y) { return x.mean > y.mean; });
+        const double enough = 0.9 * all.mean;
+        double carried = 0;
+        for (std::size_t k = 0; k < of_cells.size() && of_cells[k].mean > 0 && carried < enough;
+             ++k) {
+            carried += of_cells[k].mean;
+            worst.cells = std::max(worst.cells, of_cells[k].relative());
+        }
+    }
+    return worst;
+}
+
+}  // namespace asperity

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/detector/batch_sums.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace asperity {
+
+/// What batches of one layer add up to: sums of their energies, and sums of their squares, from
+/// which the standard errors follow. A value: += adds a batch or the sums of other batches of the
+/// same layer, in any order, to the same bits.
+///
+/// A batch may have fewer rays than the largest one; for the errors it is scaled to that one's.
+/// Energies of elements above 0 are signed, in two's complement.
+struct LayerSums {
+    __extension__ using Wide = unsigned __int128;
+    /// A sum over batches and the sum of its squares, each batch scaled to the largest one's rays.
+    struct Spread {
+        std::uint64_t sum = 0;
+        Wide squares = 0;
+        bool operator==(const Spread&) const = default;
+    };
+
+    LayerSums() = default;
+    /// No batch yet; `largest` rays are in the largest one.
+    LayerSums(const SumShape& shape, std::uint64_t largest);
+
+    SumShape shape;
+    std::uint64_t largest_batch = 0;  ///< rays
+    std::uint64_t batches = 0;
+    std::uint64_t rays = 0, segments = 0, reflections = 0, stuck = 0;
+    std::vector<std::uint64_t> energy;             ///< [(order * places + place) * values + value]
+    std::vector<std::uint64_t> escaped_by_bounce;  ///< [(side * values + value) * bounces + order]
+    std::vector<std::uint64_t> absorbed, truncated, edge;  ///< [channel]
+
+    /// Squares of what goes into each place over all orders: [place * values + value].
+    std::vector<Wide> squares;
+    /// What scaling adds to the sums over all orders, likewise; empty while all batches have as
+    /// many rays as the largest one.
+    std::vector<std::uint64_t> stretched;
+    std::vector<Spread> bounces;  ///< of escaped_by_bounce
+    std::vector<Spread> albedo;   ///< of the sum over its orders: [side * values + value]
+
+    LayerSums& operator+=(const BatchSums& batch);
+    /// Throws Error(Usage) if the shapes or the largest batches differ: they are not of one layer.
+    LayerSums& operator+=(const LayerSums& other);
+    bool operator==(const LayerSums&) const = default;
+
+    /// Mean over the batches as a fraction of the launched energy, and its standard error; infinite
+    /// for a single batch.
+    struct Estimate {
+        double mean = 0, error = 0;
+        double relative() const { return mean > 0 ? error / mean : 0.0; }
+    };
+    Estimate estimate(const Spread& spread) const;
+    /// Of place k / values, value k % values, over all orders.
+    Estimate cell(std::size_t k) const;
+    /// Relative standard errors of energies: the worst channel's albedo; and the largest one among
+    /// the cells that, strongest first, carry 90 % of it.
+    struct Errors {
+        double albedo = 0, cells = 0;
+    };
+    Errors relative_errors() const;
+
+  private:
+    std::uint64_t scaled(std::uint64_t energy, std::uint64_t of_rays) const;
+    std::uint64_t over_all_orders(std::size_t k) const;
+    void add_spreads(const BatchSums& batch);
+    /// Adds the batch's sums by place; `paths` in units of so much energy.
+    template <std::uint64_t kUnit, class Value>
+    void add_places(const BatchSums& batch, const std::vector<Value>& paths);
+};
+
+}  // namespace asperity

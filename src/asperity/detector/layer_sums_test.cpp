@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/core/energy.h>
+#include <asperity/core/error.h>
+#include <asperity/core/random.h>
+#include <asperity/detector/layer_sums.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace asperity {
+namespace {
+
+const SumShape kShape{.cells = 40, .channels = 2, .orders = 2, .bounces = 4};
+
+/// A batch of some rays, half of which leave, with weights of their own.
+BatchSums batch(std::uint64_t number, std::uint64_t rays) {
+    const CounterRandom random(7, 3);
+    std::vector<std::int32_t> cells, paths;
+    std::vector<float> first, second;
+    for (std::uint64_t k = 0; k < rays; ++k) {
+        const auto u = random.uniform2(1000 * number + k);
+        cells.push_back(static_cast<std::int32_t>(40 * u[0] * u[1]));
+        paths.push_back(static_cast<std::int32_t>(k));
+        first.push_back(static_cast<float>(u[1]));
+        second.push_back(static_cast<float>(1 - u[0]));
+    }
+    const std::vector<const float*> weights{first.data(), second.data()};
+    BatchSums sums(kShape);
+    const auto half = static_cast<std::size_t>(rays / 2);
+    sums.escape(0, 1 + static_cast<int>(number % 4), cells.data(), paths.data(), half, weights);
+    sums.truncate(paths.data() + half, static_cast<std::size_t>(rays) - half, weights);
+    sums.rays = rays;
+    return sums;
+}
+
+LayerSums sum_of(const std::vector<std::uint64_t>& numbers) {
+    LayerSums sums(kShape, 101);
+    for (const std::uint64_t n : numbers) sums += batch(n, n < 3 ? 101 : 100);
+    return sums;
+}
+
+TEST(LayerSums, AnyOrderAndAnyPartsGiveTheSameBits) {
+    std::vector<std::uint64_t> numbers(12);
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    const LayerSums forward = sum_of(numbers);
+    std::reverse(numbers.begin(), numbers.end());
+    EXPECT_EQ(sum_of(numbers), forward);
+    // Parts in another order; one of them holds batches of the largest kind alone
+    LayerSums merged = sum_of({5, 8, 11, 3});
+    merged += sum_of({0, 1, 2});
+    merged += sum_of({10, 4});
+    merged += sum_of({9, 7, 6});
+    EXPECT_EQ(merged, forward);
+}
+
+TEST(LayerSums, UnlikeLayersAreNotAdded) {
+    LayerSums sums(kShape, 101);
+    EXPECT_THROW(sums += LayerSums(kShape, 100), Error);
+    SumShape other = kShape;
+    other.cells = 41;
+    EXPECT_THROW(sums += LayerSums(other, 101), Error);
+}
+
+TEST(LayerSums, ErrorsAreThoseOfTheMeanOverBatches) {
+    // Equal batches of 64 rays without weights: cell 5 gets 10, 20, 30, 40 of them
+    const SumShape shape{.cells = 8, .bounces = 1};
+    const std::vector<std::int32_t> cells(64, 5), paths(64, 0);
+    LayerSums sums(shape, 64);
+    for (const std::size_t n : {10u, 20u, 30u, 40u}) {
+        BatchSums b(shape);
+        b.escape(0, 1, cells.data(), paths.data(), n, {});
+        b.lose_at_edge(paths.data(), 64 - n, {});
+        b.rays = 64;
+        sums += b;
+    }
+    // Mean 25; sample variance 500 / 3; of the mean a quarter of it
+    const LayerSums::Estimate e = sums.cell(5);
+    EXPECT_NEAR(e.mean, 25.0 / 64, 1e-15);
+    EXPECT_NEAR(e.error, std::sqrt(500.0 / 3 / 4) / 64, 1e-15);
+    EXPECT_EQ(sums.cell(4).error, 0);
+    EXPECT_EQ(sums.edge[0], (54 + 44 + 34 + 24) * kRayEnergy);
+}
+
+TEST(LayerSums, SpreadLightAndSingleRaysAreOneSum) {
+    const SumShape shape{.cells = 20, .orders = 2, .bounces = 2};
+    BatchSums b(shape);
+    const std::vector<std::uint32_t> places{3, 17};
+    const std::vector<std::uint64_t> energy{kRayEnergy / 4, kRayEnergy / 2};
+    b.escape_spread(8, places, energy);
+    const std::vector<std::int32_t> cells{3}, paths{0};
+    b.escape(0, 2, cells.data(), paths.data(), 1, {});
+    b.rays = 9;
+    LayerSums sums(shape, 9);
+    sums += b;
+    EXPECT_EQ(sums.energy[3], 2 * kRayEnergy);
+    EXPECT_EQ(sums.energy[17], 4 * kRayEnergy);
+    EXPECT_EQ(sums.energy[20 + 3], kRayEnergy);
+    EXPECT_EQ(sums.absorbed[0], 2 * kRayEnergy);
+    EXPECT_NEAR(sums.estimate({3 * kRayEnergy, 0}).mean, 3.0 / 9, 1e-15);
+}
+
+TEST(LayerSums, ElementsOfPolarisedLightAreSigned) {
+    // Element 1 cancels over two batches, its spread does not
+    const SumShape shape{.cells = 2, .elements = 2, .bounces = 1};
+    LayerSums sums(shape, 4);
+    const std::vector<std::int32_t> cells(4, 1), paths{0, 1, 2, 3};
+    for (const float sign : {1.0f, -1.0f}) {
+        const std::vector<float> one(4, 1.0f), signed_half(4, 0.5f * sign);
+        const std::vector<const float*> weights{one.data(), signed_half.data()};
+        BatchSums b(shape);
+        b.escape(0, 1, cells.data(), paths.data(), 4, weights);
+        b.rays = 4;
+        sums += b;
+    }
+    EXPECT_EQ(sums.absorbed[0], 0u);
+    EXPECT_NEAR(sums.cell(2).mean, 1, 1e-15);
+    // To the unit that energies are rounded to
+    EXPECT_NEAR(sums.cell(3).mean, 0, 1 / static_cast<double>(kRayEnergy));
+    EXPECT_NEAR(sums.cell(3).error, 0.5, 1 / static_cast<double>(kRayEnergy));
+}
+
+}  // namespace
+}  // namespace asperity

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/gonio/layer_of_sums.h>
+
+#include <asperity/core/error.h>
+
+namespace asperity {
+
+namespace {
+
+/// Calls work(out, place) for every place of a list of sums and where it stands in a Layer: there
+/// each value has its cells side by side, [(side * values + value) * cells + cell].
+template <class Work>
+void for_places(const SumShape& shape, Work work) {
+    const std::size_t values = shape.values();
+    for (std::size_t side = 0; side < shape.sides; ++side)
+        for (std::size_t cell = 0; cell < shape.cells; ++cell)
+            for (std::size_t v = 0; v < values; ++v)
+                work((side * values + v) * shape.cells + cell,
+                     (side * shape.cells + cell) * values + v);
+}
+
+/// The same for energies: in a Layer [((side * orders + order) * values + value) * cells + cell].
+template <class Work>
+void for_energies(const SumShape& shape, Work work) {
+    const std::size_t side_size = shape.cells * shape.values();
+    for (std::size_t order = 0; order < shape.orders; ++order)
+        for_places(shape, [&](std::size_t out, std::size_t place) {
+            const std::size_t side = out / side_size;
+            work((side * shape.orders + order) * side_size + out % side_size,
+                 order * shape.sides * side_size + place);
+        });
+}
+
+}  // namespace
+
+Layer layer_of(const Incidence& light, const LayerSums& sums) {
+    const SumShape& shape = sums.shape;
+    Layer layer;
+    layer.number = light.number;
+    layer.theta_i = light.theta;
+    layer.phi_i = light.phi;
+    layer.rays = sums.rays;
+    layer.segments = sums.segments;
+    layer.reflections = sums.reflections;
+    layer.stuck = sums.stuck;
+    layer.batches = static_cast<int>(sums.batches);
+    layer.absorbed = sums.absorbed;
+    layer.truncated = sums.truncated;
+    layer.edge = sums.edge;
+    layer.escaped_by_bounce = sums.escaped_by_bounce;
+
+    layer.energy.resize(sums.energy.size());
+    layer.escaped.assign(sums.albedo.size(), 0);
+    for_energies(
+        shape, [&](std::size_t out, std::size_t place) { layer.energy[out] = sums.energy[place]; });
+    for (std::size_t k = 0; k < sums.escaped_by_bounce.size(); ++k)
+        layer.escaped[k / shape.bounces] += sums.escaped_by_bounce[k];
+
+    layer.stderr_energy.resize(sums.squares.size());
+    LayerSpread& spread = layer.spread;
+    spread.largest_batch = sums.largest_batch;
+    spread.squares.resize(sums.squares.size());
+    spread.stretched.resize(sums.stretched.size());
+    for_places(shape, [&](std::size_t out, std::size_t place) {
+        layer.stderr_energy[out] = static_cast<float>(sums.cell(place).error);
+        spread.squares[out] = sums.squares[place];
+        if (!spread.stretched.empty()) spread.stretched[out] = sums.stretched[place];
+    });
+    spread.bounces = sums.bounces;
+    spread.albedo = sums.albedo;
+    for (const LayerSums::Spread& s : sums.albedo)
+        layer.stderr_albedo.push_back(sums.estimate(s).error);
+    for (const LayerSums::Spread& s : sums.bounces)
+        layer.stderr_albedo_by_bounce.push_back(sums.estimate(s).error);
+    return layer;
+}
+
+LayerSums sums_of(const Layer& layer, const SumShape& shape) {
+    const LayerSpread& spread = layer.spread;
+    if (spread.squares.empty())
+        throw Error(ErrorCode::InvalidInput,
+                    "it does not say what its errors come from (format 1): measure it anew");
+    LayerSums sums(shape, spread.largest_batch);
+    sums.batches = static_cast<std::uint64_t>(layer.batches);
+    sums.rays = layer.rays;
+    sums.segments = layer.segments;
+    sums.reflections = layer.reflections;
+    sums.stuck = layer.stuck;
+    sums.absorbed = layer.absorbed;
+    sums.truncated = layer.truncated;
+    sums.edge = layer.edge;
+    sums.escaped_by_bounce = layer.escaped_by_bounce;
+    for_energies(
+        shape, [&](std::size_t out, std::size_t place) { sums.energy[place] = layer.energy[out]; });
+    sums.stretched.resize(spread.stretched.size());
+    for_places(shape, [&](std::size_t out, std::size_t place) {
+        sums.squares[place] = spread.squares[out];
+        if (!spread.stretched.empty()) sums.stretched[place] = spread.stretched[out];
+    });
+    sums.bounces = spread.bounces;
+    sums.albedo = spread.albedo;
+    return sums;
+}
+
+}  // namespace asperity

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/detector/illumination.h>
+#include <asperity/detector/layer_sums.h>
+#include <asperity/gonio/measurement.h>
+
+namespace asperity {
+
+/// The layer that sums of at least two batches make, with their standard errors.
+Layer layer_of(const Incidence& light, const LayerSums& sums);
+
+/// The sums that a layer of a result was made of, to which more may be added; the way back from
+/// layer_of. Throws Error(InvalidInput) if it does not say what its errors come from: results of
+/// format 1 do not.
+LayerSums sums_of(const Layer& layer, const SumShape& shape);
+
+}  // namespace asperity
