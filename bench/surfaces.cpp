@@ -20,11 +20,11 @@ SurfaceSettings surface_settings(const std::string& name, int size) {
     SurfaceSettings settings;
     const double value = std::stod(name.substr(name.find('-') + 1));
     if (is_gaussian(name)) {
-        settings.kind = SurfaceKind::Gaussian;
+        settings.kind = "gaussian";
         settings.alpha_x = settings.alpha_y = std::numbers::sqrt2 * value;
         settings.correlation_x = settings.correlation_y = 8;
     } else {
-        settings.kind = SurfaceKind::Thesis;
+        settings.kind = "thesis";
         settings.roughness = value;
     }
     settings.size = size;

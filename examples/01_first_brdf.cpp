@@ -8,7 +8,7 @@
 
 int main() {
     asperity::Experiment experiment;
-    experiment.surface.kind = asperity::SurfaceKind::Gaussian;
+    experiment.surface.kind = "gaussian";
     experiment.surface.size = 256;
     experiment.optics.fresnel = asperity::FresnelKind::Conductor;
     experiment.optics.material = "Au";

@@ -8,8 +8,8 @@
 #include "verbs.h"
 
 #include <asperity/core/error.h>
-#include <asperity/formats/results/experiment_text.h>
 #include <asperity/formats/results/result_file.h>
+#include <asperity/gonio/experiment_text.h>
 
 #include <fmt/format.h>
 
@@ -59,7 +59,7 @@ class InfoVerb {
         if (json_) {
             write_json(to_json(m, io::checksum(m)));
         } else {
-            write_out(config_ ? io::to_text(m.experiment) : text_of_result(m, text_of(file_)));
+            write_out(config_ ? to_text(m.experiment) : text_of_result(m, text_of(file_)));
         }
         return 0;
     }

@@ -2,9 +2,11 @@
 #include "options.h"
 
 #include <asperity/core/error.h>
-#include <asperity/formats/results/experiment_text.h>
+#include <asperity/gonio/experiment_params.h>
+#include <asperity/gonio/experiment_text.h>
 #include <asperity/optics/fresnel.h>
 #include <asperity/params/suggest.h>
+#include <asperity/surface/surface_text.h>
 
 #include <fmt/format.h>
 
@@ -21,93 +23,27 @@ namespace asperity::cli {
 
 namespace {
 
-/// The options of an experiment, by their keys. Help shows the default of the library where the
-/// table says nothing.
-constexpr OptionInfo kOptions[] = {
-    {"surface", "SPEC|FILE", kSurface,
-     "thesis, gaussian, ggx, flat, tilted, vgroove, sawtooth, pyramids, sinusoid, eggcrate, or a "
-     "file of heights (.gsf .exr .png .txt); settings may follow: gaussian:alpha=0.3,size=256"},
-    {"size", "N", kSurface, "samples on a side, 2 to 32768"},
-    {"roughness", "R", kSurface, "thesis: heights are uniform in 0 to 10 R cells; 0 to 1"},
-    {"alpha", "A[,AY]", kSurface,
-     "gaussian, ggx: width of the slope distribution (Beckmann's or GGX' alpha) along x and y"},
-    {"correlation-length", "L[,LY]", kSurface, "gaussian, ggx: correlation lengths in cells"},
-    {"autocorrelation", "NAME", kSurface, "gaussian: gaussian, exponential or self-affine"},
-    {"hurst", "H", kSurface, "self-affine: Hurst exponent, above 0, up to 1"},
-    {"max-slope", "S", kSurface, "ggx: steeper facets are cut to this slope"},
-    {"surface-seed", "K", kSurface, "seed of the random surfaces"},
-    {"tilt", "D", kSurface, "tilted, vgroove, sawtooth, pyramids: tilt of the facets in degrees"},
-    {"period", "N", kSurface, "shapes: cells per period; must divide the size"},
-    {"amplitude", "A", kSurface, "sinusoid, eggcrate: amplitude in cells"},
-    {"along-y", "", kSurface, "shapes vary along y, not along x"},
-    {"tiling", "NAME", kSurface,
-     "files: periodic (they repeat as they are), mirror (made periodic by mirroring), finite (a "
-     "patch "
-     "with edges) or auto (periodic if the file says so or its opposite edges fit, else mirror)"},
-    {"boundary", "NAME", kSurface, "made surfaces: periodic, or finite (a patch with edges)"},
-    {"cell-size", "C[,CY]", kSurface, "distance of the samples", "1 cell, or what the file says"},
-    {"height-scale", "H", kSurface, "multiplies the heights after all else"},
-    {"diagonal", "NAME", kSurface, "how a cell is cut into two triangles: anti (thesis) or main"},
-
-    {"layers", "N", kLight,
-     "thesis layers: layer k of N stands at elevation 90 k / N degrees, the last is normal "
-     "incidence"},
-    {"theta", "D[,D...]", kLight, "incident polar angles in degrees, 0 to below 90",
-     "the layers' angles"},
-    {"phi", "D[,D...]", kLight,
-     "azimuths the light comes from in degrees; every theta x every phi"},
-    {"isotropic", "", kLight, "random azimuth per ray, outgoing azimuth relative to it"},
-
-    {"fresnel", "NAME", kFacets, "none (perfect mirrors), schlick, dielectric or conductor",
-     "what the options below imply"},
-    {"f0", "X[,Y,Z]", kFacets, "schlick: reflectance along the normal, one or per channel",
-     "from --ior"},
-    {"ior", "N[,...]", kFacets, "index of refraction (its real part)", "none"},
-    {"k", "K[,...]", kFacets, "conductor: imaginary part of the index", "none"},
-    {"material", "NAME", kFacets, "conductor: Al, Ag, Au, Cu, Cr, Fe, Ni or Ti", "none"},
-    {"wavelengths", "L[,L...]", kFacets, "of a material, in nm, 400 to 700",
-     "650,550,450: red, green, blue"},
-
-    {"detector", "NAME", kDetector,
-     "latlong (rows equal in angle, the thesis' sky-map) or equal-area (cells of equal projected "
-     "solid angle)"},
-    {"resolution", "R", kDetector, "R columns x R/2 rows of outgoing directions"},
-    {"orders", "N", kDetector,
-     "bounce orders kept apart per cell; the last one holds all higher ones"},
-
-    {"bounces", "B", kRun, "reflections a ray may make; what still travels then is truncated"},
-    {"jitter", "J", kRun, "rays per surface cell and layer (the thesis' Camera Jitter)",
-     "16, or fewer on more than 4 million cells"},
-    {"rays", "N", kRun, "rays per layer, in place of --jitter", "jitter x cells"},
-    {"until", "P[,Q]", kRun,
-     "go on until the relative standard error of the albedo is below P, and that of the cells with "
-     "90 % of the energy below Q (P if not given): 1% or 0.01",
-     "one pass"},
-    {"max-rays", "N", kRun, "with --until: no more rays per layer than this",
-     "256 x the first estimate"},
-    {"launch", "NAME", kRun, "launch points: low-discrepancy, stratified or random"},
-    {"batches", "N", kRun, "independent batches per layer, from which errors are estimated"},
-    {"seed", "K", kRun, "seed of the rays; same settings, same seed: same result"},
-};
-
-const OptionInfo* find(const std::string& key) {
-    const auto* info = std::find_if(std::begin(kOptions), std::end(kOptions),
-                                    [&](const OptionInfo& o) { return key == o.name; });
-    return info == std::end(kOptions) ? nullptr : info;
+/// The heading in help of a group of settings.
+const char* heading(const std::string& group) {
+    for (const auto& [name, shown] :
+         {std::pair{"Surface", kSurface}, std::pair{"Light", kLight}, std::pair{"Optics", kFacets},
+          std::pair{"Rays", kRun}, std::pair{"Detector", kDetector}})
+        if (group == name) return shown;
+    return kRun;
 }
 
-std::string default_of(const OptionInfo& info) {
-    if (*info.otherwise) return info.otherwise;
-    static const std::vector<io::Setting> defaults = io::settings_of(Experiment{});
-    for (const io::Setting& setting : defaults) {
-        if (setting.key == info.name) return setting.value;
-    }
-    return {};
+/// The option of a setting; help shows the default where the row does not say what holds.
+CLI::Option* add_option(CLI::App& app, const Param<Experiment>& param) {
+    const ParamInfo& info = param.info;
+    const std::string name = "--" + info.name, help = help_text(info);
+    if (info.type == ParamType::Flag) return app.add_flag(name, help)->group(heading(info.group));
+    return add_text(app, name, metavar(info), help, heading(info.group))
+        ->default_str(info.otherwise.empty() ? param.default_text() : info.otherwise);
 }
 
 std::vector<std::string> long_names(const CLI::App& app) {
     std::vector<std::string> names;
-    for (const OptionInfo& info : kOptions) names.emplace_back(info.name);
+    for (const auto& param : experiment_params()) names.push_back(param.info.name);
     for (const CLI::Option* option : app.get_options()) {
         for (const std::string& name : option->get_lnames()) names.push_back(name);
     }
@@ -190,13 +126,13 @@ int ThreadsOption::threads() const {
 void ExperimentOptions::add_to(CLI::App& app, std::initializer_list<const char*> groups,
                                bool surface_option) {
     app_ = &app;
-    for (const OptionInfo& info : kOptions) {
+    for (const Param<Experiment>& param : experiment_params()) {
+        const std::string& key = param.info.name;
         const bool wanted = std::any_of(groups.begin(), groups.end(), [&](const char* group) {
-            return std::strcmp(group, info.group) == 0;
+            return std::strcmp(group, heading(param.info.group)) == 0;
         });
-        const std::string key = info.name;
-        if (!wanted || (key == "surface" && !surface_option)) continue;
-        options_.emplace_back(key, add_option(app, info, default_of(info)));
+        if (wanted && (key != "surface" || surface_option))
+            options_.emplace_back(key, add_option(app, param));
     }
     config_ = add_text(app, "--config", "FILE",
                        "read options from a text file of lines 'rays = 100000'; the command line "
@@ -207,7 +143,7 @@ void ExperimentOptions::add_to(CLI::App& app, std::initializer_list<const char*>
 Experiment ExperimentOptions::read(const std::string& spec) {
     Experiment experiment;
     if (config_->count() > 0) apply_config(experiment, text_of(config_));
-    if (!spec.empty()) io::apply_surface_spec(experiment.surface, spec);
+    if (!spec.empty()) apply_surface_spec(experiment.surface, spec);
     const auto given = [&](const char* key) {
         const CLI::Option* option = app_->get_option_no_throw(std::string("--") + key);
         return option && option->count() > 0;
@@ -219,9 +155,10 @@ Experiment ExperimentOptions::read(const std::string& spec) {
         const std::string value = text_of(option);
         if (value.find_first_not_of(" \t") == value.npos)
             throw Error(ErrorCode::Usage, "the value is empty", key);
-        io::apply_setting(experiment, key, value);
+        apply_setting(experiment, key, value);
         note_given(key);
     }
+    refuse_unused(experiment);
     // Perfect mirrors have neither index nor material: who gives one means what it implies. A
     // config file that says both means what it says.
     FresnelKind& fresnel = experiment.optics.fresnel;
@@ -229,6 +166,15 @@ Experiment ExperimentOptions::read(const std::string& spec) {
     if (fresnel == FresnelKind::None && !given("fresnel") && (hinted || !fresnel_in_config_))
         fresnel = implied_fresnel(experiment.optics);
     return experiment;
+}
+
+void ExperimentOptions::refuse_unused(const Experiment& experiment) const {
+    const ParamTable<Experiment> table = experiment_params();
+    for (const auto& [key, option] : options_) {
+        const Param<Experiment>* param = find(table, key);
+        if (option->count() == 0 || param->used(experiment)) continue;
+        throw Error(ErrorCode::Usage, param->unused(experiment), key);
+    }
 }
 
 void ExperimentOptions::note_given(const std::string& key) {
@@ -241,20 +187,21 @@ bool ExperimentOptions::any_given() const {
 }
 
 void ExperimentOptions::apply_config(Experiment& experiment, const std::string& path) {
-    std::vector<io::Setting> settings = io::parse_settings(read_text_file(path), path);
+    const ParamTable<Experiment> table = experiment_params();
+    std::vector<Setting> settings = parse_settings(read_text_file(path), path);
     // Sections belong to other programs, such as the studio.
-    std::erase_if(settings, [](const io::Setting& s) { return !s.section.empty(); });
+    std::erase_if(settings, [](const Setting& s) { return !s.section.empty(); });
     // The surface first: its text may carry settings that single lines correct.
     std::stable_partition(settings.begin(), settings.end(),
-                          [](const io::Setting& s) { return s.key == "surface"; });
-    for (const io::Setting& setting : settings) {
+                          [](const Setting& s) { return s.key == "surface"; });
+    for (const Setting& setting : settings) {
         const std::string where = fmt::format("{}:{}", path, setting.line);
         CLI::Option* option = app_->get_option_no_throw("--" + setting.key);
         if (setting.key == "fresnel") fresnel_in_config_ = true;
         note_given(setting.key);
-        if (find(setting.key)) {
+        if (find(table, setting.key)) {
             try {
-                io::apply_setting(experiment, setting.key, setting.value);
+                apply_setting(experiment, setting.key, setting.value);
             } catch (const Error& error) {
                 throw Error(ErrorCode::InvalidInput, error.what(), where);
             }

@@ -55,7 +55,7 @@ struct ThreadsOption {
 };
 
 /// The options that describe an experiment, all from one table; their values are read by
-/// io::apply_setting, on the command line as in a --config file.
+/// apply_setting, on the command line as in a --config file.
 class ExperimentOptions {
   public:
     /// Adds the options of these groups and --config. `surface_option`: with --surface; a verb that
@@ -65,7 +65,8 @@ class ExperimentOptions {
     /// Reads --config, if given, then `spec`, a surface given as the verb's argument, then the
     /// options of the command line: what is read later wins. Keys of the file are those of every
     /// experiment and the long options of this verb (quiet, threads), which become the value of the
-    /// option unless the command line has one. Throws Error(Usage), Error(InvalidInput,
+    /// option unless the command line has one. An option of the command line that the chosen kind
+    /// of surface does not use is refused. Throws Error(Usage), Error(InvalidInput,
     /// "file:line").
     Experiment read(const std::string& spec = {});
 
@@ -76,6 +77,8 @@ class ExperimentOptions {
 
   private:
     void apply_config(Experiment& experiment, const std::string& path);
+    /// Throws Error(Usage, option) for one that the chosen kind has no use for.
+    void refuse_unused(const Experiment& experiment) const;
     void note_given(const std::string& key);
 
     CLI::App* app_ = nullptr;

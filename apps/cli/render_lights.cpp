@@ -48,16 +48,15 @@ std::string kind_of(const std::string& text) {
 }
 
 double intensity_or(const RenderOptions& options, double otherwise) {
-    return options.given("light-intensity")
-               ? options.value("light-intensity").number(io::kNotNegative)
-               : otherwise;
+    return options.given("light-intensity") ? options.value("light-intensity").number(kNotNegative)
+                                            : otherwise;
 }
 
 std::unique_ptr<Light> point_light(const RenderOptions& options) {
     PointLightSettings s;
     s.position = options.vector("light-position");
     s.intensity = intensity_or(options, s.intensity);
-    s.colour = options.colour("light-colour", io::kNotNegative);
+    s.colour = options.colour("light-colour", kNotNegative);
     return make_light(s);
 }
 
@@ -65,30 +64,30 @@ std::unique_ptr<Light> directional_light(const RenderOptions& options) {
     DirectionalLightSettings s;
     s.direction = options.vector("light-direction");
     s.irradiance = intensity_or(options, s.irradiance);
-    s.colour = options.colour("light-colour", io::kNotNegative);
+    s.colour = options.colour("light-colour", kNotNegative);
     return make_light(s);
 }
 
 std::unique_ptr<Light> constant_light(const RenderOptions& options) {
     return make_light(ConstantLightSettings{intensity_or(options, 1) *
-                                            options.colour("light-colour", io::kNotNegative)});
+                                            options.colour("light-colour", kNotNegative)});
 }
 
 std::unique_ptr<Light> environment_light(const RenderOptions& options, const std::string& text) {
     EnvironmentMapSettings s;
-    s.rotation_deg = options.value("light-rotation").number(io::kAnyNumber);
-    s.scale = options.value("light-scale").number(io::kAboveZero);
+    s.rotation_deg = options.value("light-rotation").number(kAnyNumber);
+    s.scale = options.value("light-scale").number(kAboveZero);
     s.name = text.substr(std::string(kEnvironment).size());
     return make_environment_light(io::read_image(s.name), s);
 }
 
 SkySettings sky_settings(const RenderOptions& options) {
     SkySettings s;
-    s.sun_elevation_deg = options.value("sun-elevation").number(io::kAnyNumber);
-    s.sun_azimuth_deg = options.value("sun-azimuth").number(io::kAnyNumber);
-    s.sun_diameter_deg = options.value("sun-diameter").number(io::kAnyNumber);
-    s.turbidity = options.value("turbidity").number(io::kAnyNumber);
-    s.scale = options.value("light-scale").number(io::kAboveZero);
+    s.sun_elevation_deg = options.value("sun-elevation").number(kAnyNumber);
+    s.sun_azimuth_deg = options.value("sun-azimuth").number(kAnyNumber);
+    s.sun_diameter_deg = options.value("sun-diameter").number(kAnyNumber);
+    s.turbidity = options.value("turbidity").number(kAnyNumber);
+    s.scale = options.value("light-scale").number(kAboveZero);
     return s;
 }
 

@@ -5,8 +5,8 @@
 
 #include <asperity/bsdf/spec.h>
 #include <asperity/core/error.h>
-#include <asperity/formats/results/experiment_text.h>
 #include <asperity/formats/results/result_file.h>
+#include <asperity/gonio/experiment_text.h>
 #include <asperity/measured/baked_brdf.h>
 #include <asperity/measured/tabulated.h>
 
@@ -29,7 +29,7 @@ std::shared_ptr<const Bsdf> load_brdf(const std::string& text, Run& run, io::Pro
                                 m.channels()),
                     text);
     }
-    origin.emplace_back("experiment", io::to_text(m.experiment));
+    origin.emplace_back("experiment", to_text(m.experiment));
     origin.emplace_back("experiment-checksum", io::checksum(m));
     return bake_brdf(*make_tabulated_brdf(m), run);
 }
@@ -47,9 +47,9 @@ void check_materials(const RenderOptions& options) {
     }
     if (brdfs.size() < kMostBrdfs && options.given("split"))
         throw Error(ErrorCode::Usage, "needs a second --brdf", "split");
-    options.value("split").number(io::kZeroToOne);
-    const auto factors = options.two_numbers("normalize-factor", io::kNotNegative, 1);
-    const auto albedos = options.two_colours("albedo", io::kZeroToOne, {});
+    options.value("split").number(kZeroToOne);
+    const auto factors = options.two_numbers("normalize-factor", kNotNegative, 1);
+    const auto albedos = options.two_colours("albedo", kZeroToOne, {});
     if (brdfs.size() < kMostBrdfs && (factors[1] != 1 || !is_black(albedos[1]))) {
         throw Error(ErrorCode::Usage, "a second value needs a second --brdf",
                     factors[1] != 1 ? "normalize-factor" : "albedo");
@@ -60,8 +60,8 @@ void check_materials(const RenderOptions& options) {
 Materials load_materials(const RenderOptions& options, Run& run) {
     check_materials(options);
     const std::vector<std::string>& brdfs = options.texts("brdf");
-    const auto factors = options.two_numbers("normalize-factor", io::kNotNegative, 1);
-    const auto albedos = options.two_colours("albedo", io::kZeroToOne, {});
+    const auto factors = options.two_numbers("normalize-factor", kNotNegative, 1);
+    const auto albedos = options.two_colours("albedo", kZeroToOne, {});
     io::Provenance origin;
     const auto material = [&](std::size_t k) {
         return Material(load_brdf(brdfs[k], run, origin), {factors[k], albedos[k]});
@@ -71,7 +71,7 @@ Materials load_materials(const RenderOptions& options, Run& run) {
                         Material(parse_brdf_spec(std::string(options.value("stage").text()))),
                         {}};
     if (brdfs.size() == kMostBrdfs)
-        materials.split = SplitView{material(1), options.value("split").number(io::kZeroToOne)};
+        materials.split = SplitView{material(1), options.value("split").number(kZeroToOne)};
     materials.origin = std::move(origin);
     return materials;
 }

@@ -101,21 +101,8 @@ std::string first_name(const char* names) {
     return all.substr(0, all.find(','));
 }
 
-std::vector<double> read_numbers(const io::SettingValue& value, std::string_view text,
-                                 char separator, const io::Range& range) {
-    std::vector<double> numbers;
-    for (const std::string_view part : split(text, separator)) {
-        const auto number = parse_double(part);
-        if (!number) value.refuse(in_quotes(part) + " is not a number");
-        if (*number < range.low || *number > range.high)
-            value.refuse(in_quotes(part) + " " + range.rule);
-        numbers.push_back(*number);
-    }
-    return numbers;
-}
-
-Rgb read_colour(const io::SettingValue& value, std::string_view text, const io::Range& range) {
-    const std::vector<double> numbers = read_numbers(value, text, '/', range);
+Rgb read_colour(const OptionValue& value, std::string_view text, const Range& range) {
+    const std::vector<double> numbers = value.numbers(text, '/', range);
     if (numbers.size() == 1) return {numbers[0], numbers[0], numbers[0]};
     if (numbers.size() != 3) value.refuse(in_quotes(text) + " is neither one number nor three");
     return {numbers[0], numbers[1], numbers[2]};
@@ -157,38 +144,38 @@ const std::vector<std::string>& RenderOptions::texts(const std::string& name) co
     return texts_.at(name);
 }
 
-io::SettingValue RenderOptions::value(const std::string& name) const {
+OptionValue RenderOptions::value(const std::string& name) const {
     const auto entry = texts_.find(name);
-    const io::SettingValue value(entry->first, entry->second.back());
+    const OptionValue value(entry->first, entry->second.back());
     if (value.text().empty()) value.refuse("the value is empty");
     return value;
 }
 
-Rgb RenderOptions::colour(const std::string& name, const io::Range& range) const {
-    const io::SettingValue found = value(name);
+Rgb RenderOptions::colour(const std::string& name, const Range& range) const {
+    const OptionValue found = value(name);
     return read_colour(found, found.text(), range);
 }
 
-std::array<Rgb, 2> RenderOptions::two_colours(const std::string& name, const io::Range& range,
+std::array<Rgb, 2> RenderOptions::two_colours(const std::string& name, const Range& range,
                                               Rgb otherwise) const {
-    const io::SettingValue found = value(name);
+    const OptionValue found = value(name);
     const auto parts = split(found.text(), ',');
     if (parts.size() > 2) found.refuse(in_quotes(found.text()) + " is more than two colours");
     return {read_colour(found, parts[0], range),
             parts.size() > 1 ? read_colour(found, parts[1], range) : otherwise};
 }
 
-std::array<double, 2> RenderOptions::two_numbers(const std::string& name, const io::Range& range,
+std::array<double, 2> RenderOptions::two_numbers(const std::string& name, const Range& range,
                                                  double otherwise) const {
-    const io::SettingValue found = value(name);
-    const std::vector<double> numbers = read_numbers(found, found.text(), ',', range);
+    const OptionValue found = value(name);
+    const std::vector<double> numbers = found.numbers(found.text(), ',', range);
     if (numbers.size() > 2) found.refuse(in_quotes(found.text()) + " is more than two numbers");
     return {numbers[0], numbers.size() > 1 ? numbers[1] : otherwise};
 }
 
 Vec3 RenderOptions::vector(const std::string& name) const {
-    const io::SettingValue found = value(name);
-    const std::vector<double> numbers = read_numbers(found, found.text(), ',', io::kAnyNumber);
+    const OptionValue found = value(name);
+    const std::vector<double> numbers = found.numbers(found.text(), ',', kAnyNumber);
     if (numbers.size() != 3) found.refuse(in_quotes(found.text()) + " is not X,Y,Z");
     return {numbers[0], numbers[1], numbers[2]};
 }
@@ -206,58 +193,57 @@ io::Provenance RenderOptions::provenance() const {
 
 RenderSettings render_settings(const RenderOptions& options) {
     constexpr int kMostSide = 16384, kMostSamples = 1 << 24, kMostUntil = 4096;
-    constexpr io::Range kNoise = {1e-6, 0.999999, "must be above 0 and below 100 %"};
+    constexpr Range kNoise = {1e-6, 1, false, true};
     RenderSettings s;
     s.width = options.value("width").integer(1, kMostSide);
     s.height = options.value("height").integer(1, kMostSide);
     if (options.given("until")) {
-        s.until = options.value("until").shares(kNoise, 1).front();
+        s.until = options.value("until").share(kNoise);
         s.spp = kMostUntil;
     }
     if (options.given("spp"))
-        s.spp = static_cast<std::uint32_t>(options.value("spp").count_or_auto(1, kMostSamples));
-    if (s.spp == 0) options.value("spp").refuse("'auto' is not a number of samples");
+        s.spp = static_cast<std::uint32_t>(options.value("spp").natural({1, kMostSamples}));
     s.depth = options.value("depth").integer(1, 1000);
     s.integrator = options.value("integrator")
-                       .choice(io::Names<Integrator, 2>{
+                       .choice(Names<Integrator, 2>{
                            {{"path", Integrator::Path}, {"stratified", Integrator::Stratified}}});
-    s.direct = options.value("direct").choice(
-        io::Names<DirectLight, 3>{{{"mis", DirectLight::Mis},
-                                   {"light", DirectLight::LightOnly},
-                                   {"brdf", DirectLight::BrdfOnly}}});
-    s.filter = options.value("filter").choice(io::Names<PixelFilter, 3>{
+    s.direct =
+        options.value("direct").choice(Names<DirectLight, 3>{{{"mis", DirectLight::Mis},
+                                                              {"light", DirectLight::LightOnly},
+                                                              {"brdf", DirectLight::BrdfOnly}}});
+    s.filter = options.value("filter").choice(Names<PixelFilter, 3>{
         {{"tent", PixelFilter::Tent}, {"box", PixelFilter::Box}, {"centre", PixelFilter::Centre}}});
     s.strata = options.value("strata").integer(1, 1024);
     if (options.given("strata") && s.integrator != Integrator::Stratified)
         options.value("strata").refuse("goes with --integrator stratified");
-    s.seed = options.value("seed").seed();
+    s.seed = options.value("seed").natural();
     s.show_lights = options.value("background").text() == "lights";
-    if (!s.show_lights) s.background = options.colour("background", io::kNotNegative);
+    if (!s.show_lights) s.background = options.colour("background", kNotNegative);
     check(s);
     return s;
 }
 
 ToneMapping tone_mapping(const RenderOptions& options) {
-    constexpr io::Range kStops = {-100, 100, "must be in -100 .. 100"};
-    ToneMapping mapping = options.value("tonemap").choice(io::Names<ToneMapping, 4>{
-        {{"none", ToneMapping{}},
-         {"reinhard", ToneMapping{0, ToneCurve::Reinhard, Transfer::Srgb}},
-         {"aces", ToneMapping{0, ToneCurve::Aces, Transfer::Srgb}},
-         {"thesis", kThesisLook}}});
+    constexpr Range kStops = {-100, 100};
+    ToneMapping mapping = options.value("tonemap").choice(
+        Names<ToneMapping, 4>{{{"none", ToneMapping{}},
+                               {"reinhard", ToneMapping{0, ToneCurve::Reinhard, Transfer::Srgb}},
+                               {"aces", ToneMapping{0, ToneCurve::Aces, Transfer::Srgb}},
+                               {"thesis", kThesisLook}}});
     mapping.exposure = options.value("exposure").number(kStops);
     if (options.given("transfer")) {
         mapping.transfer = options.value("transfer")
-                               .choice(io::Names<Transfer, 3>{{{"srgb", Transfer::Srgb},
-                                                               {"gamma22", Transfer::Gamma22},
-                                                               {"linear", Transfer::Linear}}});
+                               .choice(Names<Transfer, 3>{{{"srgb", Transfer::Srgb},
+                                                           {"gamma22", Transfer::Gamma22},
+                                                           {"linear", Transfer::Linear}}});
     }
     return mapping;
 }
 
 Camera camera(const RenderOptions& options) {
-    constexpr io::Range kFov = {1, 170, "must be in 1 .. 170"};
-    constexpr io::Range kElevation = {-89.9, 89.9, "must be in -89.9 .. 89.9"};
-    constexpr io::Range kDistance = {0.01, 1000, "must be in 0.01 .. 1000"};
+    constexpr Range kFov = {1, 170};
+    constexpr Range kElevation = {-89.9, 89.9};
+    constexpr Range kDistance = {0.01, 1000};
     const Vec3 target = options.vector("camera-target");
     const double fov = options.value("camera-fov").number(kFov);
     if (options.given("camera-position")) {
@@ -270,18 +256,18 @@ Camera camera(const RenderOptions& options) {
     Orbiter orbiter;
     orbiter.target = target;
     orbiter.fov_deg = fov;
-    orbiter.azimuth_deg = options.value("camera-azimuth").number(io::kAnyNumber);
+    orbiter.azimuth_deg = options.value("camera-azimuth").number(kAnyNumber);
     orbiter.elevation_deg = options.value("camera-elevation").number(kElevation);
     orbiter.distance = options.value("camera-distance").number(kDistance);
     return orbiter.camera();
 }
 
 LoadedModel load_model(const RenderOptions& options) {
-    constexpr io::Range kCrease = {0, 180, "must be in 0 .. 180"};
+    constexpr Range kCrease = {0, 180};
     const auto style =
-        options.value("normals").choice(io::Names<NormalStyle, 3>{{{"given", NormalStyle::AsGiven},
-                                                                   {"smooth", NormalStyle::Smooth},
-                                                                   {"facet", NormalStyle::Facet}}});
+        options.value("normals").choice(Names<NormalStyle, 3>{{{"given", NormalStyle::AsGiven},
+                                                               {"smooth", NormalStyle::Smooth},
+                                                               {"facet", NormalStyle::Facet}}});
     const double crease = options.value("crease").number(kCrease);
     const std::string name(options.value("model").text());
     LoadedModel loaded;

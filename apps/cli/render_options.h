@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "option_value.h"
+
 #include <asperity/formats/images/render_writer.h>
-#include <asperity/formats/results/setting_value.h>
 #include <asperity/render/camera.h>
 #include <asperity/render/mesh.h>
 #include <asperity/render/render_settings.h>
@@ -32,14 +33,14 @@ class RenderOptions {
     /// As often as given, else the default alone, else nothing.
     const std::vector<std::string>& texts(const std::string& name) const;
     /// The last of them, for reading numbers and names; throws Error(Usage, name).
-    io::SettingValue value(const std::string& name) const;
+    OptionValue value(const std::string& name) const;
 
     /// Three numbers with "/" between them, or one for all; each within `range`.
-    Rgb colour(const std::string& name, const io::Range& range) const;
+    Rgb colour(const std::string& name, const Range& range) const;
     /// Of the first and the second BRDF: R/G/B[,R/G/B]; `otherwise` where there is none.
-    std::array<Rgb, 2> two_colours(const std::string& name, const io::Range& range,
+    std::array<Rgb, 2> two_colours(const std::string& name, const Range& range,
                                    Rgb otherwise) const;
-    std::array<double, 2> two_numbers(const std::string& name, const io::Range& range,
+    std::array<double, 2> two_numbers(const std::string& name, const Range& range,
                                       double otherwise) const;
     Vec3 vector(const std::string& name) const;
 

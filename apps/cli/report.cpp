@@ -6,7 +6,7 @@
 
 #include <asperity/core/directions.h>
 #include <asperity/core/energy.h>
-#include <asperity/formats/results/experiment_text.h>
+#include <asperity/surface/surface_kinds.h>
 
 #include <fmt/format.h>
 
@@ -140,27 +140,21 @@ class LayerTable {
 }  // namespace
 
 std::string kind_name(const SurfaceSettings& settings) {
-    if (settings.kind == SurfaceKind::File) return settings.file;
-    Experiment experiment;
-    experiment.surface = settings;
-    for (const io::Setting& setting : io::settings_of(experiment)) {
-        if (setting.key == "surface") return setting.value;
-    }
-    return {};
+    return settings.kind == kSurfaceFile ? settings.file : settings.kind;
 }
 
 std::string surface_line(const SurfaceSettings& settings, const SurfaceStatistics& statistics,
                          int nx, int ny) {
     std::string asked;
-    if (settings.kind == SurfaceKind::Thesis) {
+    if (surface_uses(settings.kind, "roughness")) {
         asked = fmt::format("roughness {} asked", settings.roughness);
-    } else if (settings.kind == SurfaceKind::Gaussian || settings.kind == SurfaceKind::Ggx) {
+    } else if (surface_uses(settings.kind, "alpha")) {
         asked = settings.alpha_x == settings.alpha_y
                     ? fmt::format("alpha {} asked", settings.alpha_x)
                     : fmt::format("alpha {} x {} asked", settings.alpha_x, settings.alpha_y);
     }
     // A GGX surface has no RMS slope of its own: its figure grows with the largest slope allowed.
-    const char* realised = settings.kind == SurfaceKind::Ggx ? "RMS gradient" : "alpha";
+    const char* realised = surface_uses(settings.kind, "max-slope") ? "RMS gradient" : "alpha";
     return fmt::format(
         "{}, {} x {} samples, {}{}{} {:.4g} realised (x {:.4g}, y {:.4g}), "
         "RMS height {:.4g}",

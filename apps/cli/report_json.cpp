@@ -6,8 +6,8 @@
 
 #include <asperity/core/directions.h>
 #include <asperity/core/energy.h>
-#include <asperity/formats/results/experiment_text.h>
 #include <asperity/formats/results/result_file.h>
+#include <asperity/gonio/experiment_params.h>
 
 namespace asperity::cli {
 
@@ -71,6 +71,16 @@ Json layer_json(const Measurement& m, const Layer& layer) {
     return json;
 }
 
+// A setting that is left open is null.
+Json json_of(std::monostate) {
+    return nullptr;
+}
+
+template <typename Value>
+Json json_of(const Value& value) {
+    return value;
+}
+
 }  // namespace
 
 Json to_json(const SurfaceStatistics& s) {
@@ -95,8 +105,10 @@ Json to_json(const SurfaceStatistics& s) {
 
 Json to_json(const Experiment& experiment) {
     Json json = Json::object();
-    for (const io::Setting& setting : io::settings_of(experiment)) {
-        json[setting.key] = setting.value;
+    for (const Param<Experiment>& param : experiment_params()) {
+        if (param.info.written_where_used && !param.used(experiment)) continue;
+        Json& member = json[param.info.name];
+        std::visit([&](const auto& value) { member = json_of(value); }, param.get(experiment));
     }
     return json;
 }

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 Json to_json(const Measurement& measurement, const std::string& checksum);
 Json to_json(const SurfaceStatistics& statistics);
 Json to_json(const Comparison& comparison);
-/// {"rays": "10000", ...}: what --config reads.
+/// {"rays": 10000, ...}: numbers as numbers, lists as arrays, what is left open as null.
 Json to_json(const Experiment& experiment);
 
 /// Prints one object on standard output, indented.

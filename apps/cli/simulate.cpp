@@ -17,7 +17,7 @@
 #include <asperity/gonio/measure.h>
 #include <asperity/measured/compare.h>
 #include <asperity/optics/fresnel.h>
-#include <asperity/tracing/launch.h>
+#include <asperity/surface/surface_kinds.h>
 
 #include <fmt/format.h>
 
@@ -51,7 +51,7 @@ constexpr double kLeastAlpha = 1e-3;
 
 std::string default_reference(const SurfaceSettings& settings, const SurfaceStatistics& figures) {
     // GGX slopes have no finite mean square: the asked width is the surface's alpha.
-    const double alpha = settings.kind == SurfaceKind::Ggx
+    const double alpha = surface_uses(settings.kind, "max-slope")
                              ? std::sqrt(settings.alpha_x * settings.alpha_y)
                              : figures.rms_gradient;
     if (alpha < kLeastAlpha) return "none";

@@ -4,6 +4,7 @@
 #include "report.h"
 
 #include <asperity/surface/slope_distribution.h>
+#include <asperity/surface/surface_kinds.h>
 #include <fmt/format.h>
 
 namespace asperity::cli {
@@ -11,7 +12,7 @@ namespace asperity::cli {
 namespace {
 
 bool alpha_was_asked(const SurfaceSettings& settings) {
-    return settings.kind == SurfaceKind::Gaussian || settings.kind == SurfaceKind::Ggx;
+    return surface_uses(settings.kind, "alpha");
 }
 
 std::optional<LawDistances> law_distances(const SurfaceSettings& settings,
@@ -22,7 +23,7 @@ std::optional<LawDistances> law_distances(const SurfaceSettings& settings,
     law.alpha_x = asked ? settings.alpha_x : figures.alpha_x;
     law.alpha_y = asked ? settings.alpha_y : figures.alpha_y;
     if (law.alpha_x <= 0 || law.alpha_y <= 0) return std::nullopt;
-    if (settings.kind == SurfaceKind::Ggx) law.max_slope = settings.max_slope;
+    if (surface_uses(settings.kind, "max-slope")) law.max_slope = settings.max_slope;
     const auto distance = [&](SlopeFamily family) {
         law.family = family;
         return slope_distribution_distance(surface, law, threads);
@@ -93,9 +94,9 @@ Json SurfaceReport::json() const {
     json["boundary"] = boundary_name(surface_);
     json["diagonal"] = surface_.diagonal == Diagonal::Anti ? "anti" : "main";
     json["isotropic"] = surface_.isotropic;
-    if (settings_.kind == SurfaceKind::File) json["tiling"] = tiling_line(settings_, surface_);
+    if (settings_.kind == kSurfaceFile) json["tiling"] = tiling_line(settings_, surface_);
     json["asked"] = Json::object();
-    if (settings_.kind == SurfaceKind::Thesis) json["asked"]["roughness"] = settings_.roughness;
+    if (surface_uses(settings_.kind, "roughness")) json["asked"]["roughness"] = settings_.roughness;
     if (alpha_was_asked(settings_)) {
         json["asked"] = {{"alpha_x", settings_.alpha_x}, {"alpha_y", settings_.alpha_y}};
     }

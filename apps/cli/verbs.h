@@ -22,6 +22,7 @@ Verb add_compare(CLI::App& program);
 Verb add_render(CLI::App& program);
 Verb add_sheet(CLI::App& program);
 Verb add_export(CLI::App& program);
+Verb add_reference(CLI::App& program);
 Verb add_selftest(CLI::App& program);
 
 }  // namespace asperity::cli

@@ -9,6 +9,7 @@ import unittest
 PROGRAM = os.path.abspath(os.environ.get("ASPERITY", "asperity"))
 
 # Settings of a run that takes a moment.
+# Of a made surface; SMALL[2:] of one from a file, which brings its size.
 SMALL = ["--size", "64", "--rays", "2000", "--resolution", "16"]
 
 

@@ -200,7 +200,7 @@ class Simulate(ProgramTest):
     def test_surface_from_a_file(self):
         self.passes("surface", "thesis", "--size", 64, "-o", "s.gsf")
         made = self.json_of("simulate", "--surface", "thesis", *SMALL)
-        text = self.passes("simulate", "--surface", "s.gsf", *SMALL, "--tiling", "periodic",
+        text = self.passes("simulate", "--surface", "s.gsf", *SMALL[2:], "--tiling", "periodic",
                            "-o", "r.asperity")
         self.assertIn("s.gsf", text)
         read = self.json_of("info", "r.asperity")

@@ -15,6 +15,7 @@ SILLY = ["nan", "inf", "-inf", "-1", "0", "1e308", "abc", "", " ", "1,2,3,4", "0
 # Option: what it needs beside it, and the silly values that are no mistake for it.
 OPTIONS = {
     "size": ([], []),
+    "land": (["--surface", "ridges"], ["0"]),
     "roughness": ([], ["0"]),
     "alpha": (["--surface", "gaussian"], []),
     "correlation-length": (["--surface", "gaussian"], []),

@@ -10,11 +10,12 @@
 #include <asperity/formats/models/model_reader.h>
 #include <asperity/formats/models/model_test_files.h>
 #include <asperity/formats/models/model_writer.h>
-#include <asperity/formats/results/experiment_text.h>
 #include <asperity/formats/results/result_file.h>
 #include <asperity/formats/test_files.h>
+#include <asperity/gonio/experiment_text.h>
 #include <asperity/gonio/measure.h>
 #include <asperity/render/builtin_models.h>
+#include <asperity/surface/surface_text.h>
 #include <fmt/format.h>
 #include <png.h>
 
@@ -221,14 +222,14 @@ void add_texts(std::vector<Reader>& all) {
                    "a.txt",
                    {io::to_text({}), io::to_text(small_measurement().experiment)},
                    kTextWords,
-                   [=](const std::string& path) { io::experiment_from_text(text(path), path); }});
+                   [=](const std::string& path) { experiment_from_text(text(path), path); }});
     all.push_back({"surface-spec",
                    "a.txt",
                    {"gaussian:size=64,alpha=0.3", "vgroove:tilt=30", "thesis:roughness=0.5"},
                    kTextWords,
                    [=](const std::string& path) {
                        SurfaceSettings surface;
-                       io::apply_surface_spec(surface, text(path));
+                       apply_surface_spec(surface, text(path));
                    }});
     all.push_back({"brdf-spec",
                    "a.txt",

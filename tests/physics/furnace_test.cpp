@@ -113,7 +113,7 @@ TEST(Furnace, DiffuseTermIsAdded) {
 TEST(Furnace, SimulatedMirrorSurfaceCannotBeSeen) {
     // F = 1 and all reflections counted: the surface loses nothing, whatever its shape
     SurfaceSettings surface;
-    surface.kind = SurfaceKind::Gaussian;
+    surface.kind = "gaussian";
     surface.size = 512;
     surface.correlation_x = surface.correlation_y = 6;
     surface.alpha_x = surface.alpha_y = 0.4;

@@ -68,7 +68,7 @@ class SmithRender : public testing::Test {
   protected:
     static void SetUpTestSuite() {
         SurfaceSettings settings;
-        settings.kind = SurfaceKind::Gaussian;
+        settings.kind = "gaussian";
         settings.size = 1024;
         settings.correlation_x = settings.correlation_y = 6;
         settings.alpha_x = settings.alpha_y = kAlpha;

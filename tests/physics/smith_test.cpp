@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(Alphas, GaussianAgainstSmith,
 TEST_P(GaussianAgainstSmith, EnergiesByBounceAndSingleScatteringLobe) {
     const Case& expected = GetParam();
     SurfaceSettings settings;
-    settings.kind = SurfaceKind::Gaussian;
+    settings.kind = "gaussian";
     settings.size = 1024;
     settings.correlation_x = settings.correlation_y = 6;
     settings.alpha_x = settings.alpha_y = expected.alpha;

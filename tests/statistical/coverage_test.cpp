@@ -44,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(CoverageOf, NinetyFivePercentIntervalsHoldTheTruth) {
     SurfaceSettings settings;
-    settings.kind = SurfaceKind::Gaussian;
+    settings.kind = "gaussian";
     settings.size = 128;
     settings.alpha_x = settings.alpha_y = GetParam().alpha;
     asperity::Run run(0);

@@ -99,7 +99,7 @@ void expect_reciprocal(const Scores& s) {
 
 TEST(Reciprocity, GaussianSurfaceOfPerfectMirrors) {
     SurfaceSettings s;
-    s.kind = SurfaceKind::Gaussian;
+    s.kind = "gaussian";
     s.size = 256;
     s.alpha_x = s.alpha_y = 0.6;
     expect_reciprocal(z_scores(s, {}));
@@ -114,7 +114,7 @@ TEST(Reciprocity, ThesisSurfaceWithMultipleBounces) {
 
 TEST(Reciprocity, AnisotropicSurfaceOfCopper) {
     SurfaceSettings s;
-    s.kind = SurfaceKind::Gaussian;
+    s.kind = "gaussian";
     s.size = 256;
     s.alpha_x = 0.9;
     s.alpha_y = 0.45;

@@ -82,7 +82,7 @@ class PlotsPanelTest : public QObject {
 
 void PlotsPanelTest::initTestCase() {
     StudioSettings settings;
-    settings.experiment.surface.kind = SurfaceKind::Gaussian;
+    settings.experiment.surface.kind = "gaussian";
     settings.experiment.surface.size = 64;
     settings.experiment.run.jitter = 8;
     settings.experiment.illumination.layers = 3;

@@ -209,7 +209,7 @@ void ScreenshotsTest::figures_2_17_to_2_19() {
 void ScreenshotsTest::figures_2_20_and_2_21() {
     open();
     edit([](StudioSettings& s) {
-        s.experiment.surface.kind = SurfaceKind::Gaussian;
+        s.experiment.surface.kind = "gaussian";
         s.experiment.surface.size = 512;
         s.experiment.surface.alpha_x = s.experiment.surface.alpha_y = 0.2;
         s.experiment.detector.resolution = 256;
@@ -247,7 +247,7 @@ void ScreenshotsTest::figures_2_20_and_2_21() {
 void ScreenshotsTest::seeing_the_light() {
     open();
     edit([](StudioSettings& s) {
-        s.experiment.surface.kind = SurfaceKind::Gaussian;
+        s.experiment.surface.kind = "gaussian";
         s.experiment.surface.correlation_x = s.experiment.surface.correlation_y = 10;
         s.experiment.surface.alpha_x = s.experiment.surface.alpha_y = 0.4;
         s.surface_view.shading = SurfaceShading::Lit;
@@ -264,7 +264,7 @@ void ScreenshotsTest::seeing_the_light() {
 void ScreenshotsTest::plots() {
     open();
     edit([](StudioSettings& s) {
-        s.experiment.surface.kind = SurfaceKind::Gaussian;
+        s.experiment.surface.kind = "gaussian";
         s.experiment.surface.size = 256;
         s.surface_view.current_layer = 9;
         s.plots.ggx.shown = s.plots.beckmann.shown = true;

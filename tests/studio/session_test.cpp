@@ -5,8 +5,7 @@
 #include "model/settings_keys.h"
 
 #include <asperity/core/error.h>
-#include <asperity/formats/results/experiment_keys.h>
-#include <asperity/formats/results/experiment_text.h>
+#include <asperity/gonio/experiment_text.h>
 
 #include <QFile>
 #include <QSignalSpy>
@@ -19,20 +18,20 @@ namespace asperity::studio {
 namespace {
 
 /// A text other than the default that the setting takes, tried out from what there is.
-std::string another_value(const StudioKey& key) {
+std::string another_value(const Param<StudioSettings>& key) {
     const StudioSettings defaults;
-    const std::string usual = key.get(defaults);
+    const std::string usual = key.text(defaults);
     for (const char* text :
          {"true", "false", "0.125", "3", "0.25,0.5,0.75", "model", "first-person", "lit", "viridis",
           "log", "linear", "disk", "simulated", "cook-torrance", "sky", "aces", "srgb", "albedo",
           "a \"quoted\" name # no comment.asperity"}) {
         StudioSettings settings;
         try {
-            key.set(settings, io::SettingValue(key.name, text));
+            key.apply(settings, text);
         } catch (const Error&) {
             continue;
         }
-        if (key.get(settings) != usual) return text;
+        if (key.text(settings) != usual) return text;
     }
     return usual;
 }
@@ -71,58 +70,58 @@ class SessionTest : public QObject {
 
 void SessionTest::every_key_survives_data() {
     QTest::addColumn<QString>("name");
-    for (const StudioKey& key : studio_keys()) QTest::newRow(key.name) << QString(key.name);
+    for (const Param<StudioSettings>& key : studio_params()) QTest::newRow(key.info.name.c_str()) << QString::fromStdString(key.info.name);
 }
 
 void SessionTest::every_key_survives() {
     QFETCH(QString, name);
-    const StudioKey& key = *find_studio_key(name.toStdString());
+    const Param<StudioSettings>& key = *find(studio_params(), name.toStdString());
     const std::string value = another_value(key);
 
     StudioSettings settings;
-    key.set(settings, io::SettingValue(key.name, value));
-    QVERIFY(key.get(settings) != key.get(StudioSettings{}));
+    key.apply(settings, value);
+    QVERIFY(key.text(settings) != key.text(StudioSettings{}));
 
     const std::string text = session_text(settings);
     const StudioSettings again = session_from_text(text, "session");
-    QCOMPARE(key.get(again), key.get(settings));
+    QCOMPARE(key.text(again), key.text(settings));
     QCOMPARE(session_text(again), text);
     // One key is one field: all others are as they were
-    for (const StudioKey& other : studio_keys())
-        if (other.name != key.name) QCOMPARE(other.get(again), other.get(StudioSettings{}));
+    for (const Param<StudioSettings>& other : studio_params())
+        if (other.info.name != key.info.name) QCOMPARE(other.text(again), other.text(StudioSettings{}));
 }
 
 void SessionTest::all_keys_together() {
     StudioSettings settings;
-    for (const StudioKey& key : studio_keys()) {
+    for (const Param<StudioSettings>& key : studio_params()) {
         const std::string value = another_value(key);
-        key.set(settings, io::SettingValue(key.name, value));
+        key.apply(settings, value);
     }
     settings.model_view.light_position = {0.1, 1e-300, -2.0 / 3};
     settings.model_view.model = "/models with spaces/a\nb\\c.obj";
     const StudioSettings again = session_from_text(session_text(settings), "session");
-    for (const StudioKey& key : studio_keys()) QCOMPARE(key.get(again), key.get(settings));
+    for (const Param<StudioSettings>& key : studio_params()) QCOMPARE(key.text(again), key.text(settings));
     QCOMPARE(again.model_view.light_position.z, -2.0 / 3);
     QCOMPARE(again.model_view.model, settings.model_view.model);
 }
 
 void SessionTest::experiment_survives() {
     StudioSettings settings;
-    settings.experiment.surface.kind = SurfaceKind::Gaussian;
+    settings.experiment.surface.kind = "gaussian";
     settings.experiment.surface.alpha_x = 0.1;
     settings.experiment.illumination.theta_deg = {10, 20.5};
     settings.experiment.optics.material = "Au";
     settings.experiment.run.jitter = 1.0 / 3;
     const StudioSettings again = session_from_text(session_text(settings), "session");
-    QCOMPARE(io::to_text(again.experiment), io::to_text(settings.experiment));
+    QCOMPARE(to_text(again.experiment), to_text(settings.experiment));
     QCOMPARE(again.experiment.run.jitter, 1.0 / 3);
 }
 
 void SessionTest::names_are_unique() {
     std::map<std::string, int> times;
-    for (const StudioKey& key : studio_keys()) ++times[key.name];
+    for (const Param<StudioSettings>& key : studio_params()) ++times[key.info.name];
     for (const auto& [name, count] : times) QVERIFY2(count == 1, name.c_str());
-    QVERIFY(find_studio_key("no-such-key") == nullptr);
+    QVERIFY(find(studio_params(), "no-such-key") == nullptr);
 }
 
 void SessionTest::refuses_data() {
@@ -157,7 +156,7 @@ void SessionTest::refuses() {
 void SessionTest::config_of_the_cli_is_a_session() {
     const StudioSettings settings =
         session_from_text("# a run\nsurface = flat\nlayers = 3\n\n[elsewhere]\nx = y\n", "run.txt");
-    QCOMPARE(settings.experiment.surface.kind, SurfaceKind::Flat);
+    QCOMPARE(settings.experiment.surface.kind, std::string("flat"));
     QCOMPARE(settings.experiment.illumination.layers, 3);
     QCOMPARE(settings.surface_view.current_layer, StudioSettings{}.surface_view.current_layer);
 }

@@ -101,7 +101,7 @@ void WorkbenchTest::unreadable_surface() {
     const auto old = bench.surface().surface();
     QSignalSpy complaint(&bench, &Workbench::complaint);
     bench.document().change("Surface", [](StudioSettings& s) {
-        s.experiment.surface.kind = SurfaceKind::File;
+        s.experiment.surface.kind = kSurfaceFile;
         s.experiment.surface.file = "/no/such/heights.gsf";
     });
     bench.draw_to_textures();

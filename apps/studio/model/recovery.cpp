@@ -6,7 +6,7 @@
 #include <asperity/core/error.h>
 #include <asperity/formats/atomic_file.h>
 #include <asperity/formats/read_file.h>
-#include <asperity/formats/results/experiment_text.h>
+#include <asperity/gonio/experiment_text.h>
 
 #include <QCoreApplication>
 #include <QDir>
@@ -40,7 +40,7 @@ std::unique_ptr<QLockFile> lock_of(const QString& copy) {
 /// A session, and a section of our own for where it was saved.
 std::string copy_text(const Document& document) {
     return session_text(document.settings()) + "\n[" + kSection + "]\n" +
-           io::setting_line("path", document.path().toStdString());
+           setting_line("path", document.path().toStdString());
 }
 
 std::optional<Recovery::Lost> read_copy(const QFileInfo& file) {
@@ -49,7 +49,7 @@ std::optional<Recovery::Lost> read_copy(const QFileInfo& file) {
         const std::string text = io::read_text_file(name, kLongestCopy);
         Recovery::Lost lost{
             session_from_text(text, name), {}, file.lastModified(), file.filePath()};
-        for (const io::Setting& setting : io::parse_settings(text, name))
+        for (const Setting& setting : parse_settings(text, name))
             if (setting.section == kSection && setting.key == "path")
                 lost.path = QString::fromStdString(setting.value);
         return lost;

@@ -4,7 +4,8 @@
 #include "settings_keys.h"
 
 #include <asperity/core/error.h>
-#include <asperity/formats/results/experiment_text.h>
+#include <asperity/core/parse_number.h>
+#include <asperity/gonio/experiment_text.h>
 
 #include <fmt/format.h>
 
@@ -15,33 +16,27 @@ namespace {
 
 constexpr const char* kSection = "studio";
 
-void set(StudioSettings& settings, const io::Setting& setting) {
+void set(StudioSettings& settings, const Setting& setting) {
     if (setting.section.empty()) {
-        io::apply_setting(settings.experiment, setting.key, setting.value);
+        apply_setting(settings.experiment, setting.key, setting.value);
         return;
     }
-    const StudioKey* key = find_studio_key(setting.key);
-    if (key == nullptr) throw Error(ErrorCode::Usage, "there is no such setting", setting.key);
-    key->set(settings, io::SettingValue(setting.key, setting.value));
+    const Param<StudioSettings>* param = find(studio_params(), setting.key);
+    if (param == nullptr) throw Error(ErrorCode::Usage, "there is no such setting", setting.key);
+    param->apply(settings, setting.value);
 }
 
 }  // namespace
 
 std::string session_text(const StudioSettings& settings) {
-    std::string text = io::to_text(settings.experiment);
-    text += fmt::format("\n[{}]\n", kSection);
-    std::string group;
-    for (const StudioKey& key : studio_keys()) {
-        if (group != key.group) text += fmt::format("# {}\n", group = key.group);
-        text += io::setting_line(key.name, key.get(settings));
-    }
-    return text;
+    return to_text(settings.experiment) + fmt::format("\n[{}]\n", kSection) +
+           settings_text(studio_params(), settings);
 }
 
 StudioSettings session_from_text(std::string_view text, const std::string& name) {
     StudioSettings settings;
     std::set<std::pair<std::string, std::string>> seen;
-    for (const io::Setting& setting : io::parse_settings(text, name)) {
+    for (const Setting& setting : parse_settings(text, name)) {
         if (!setting.section.empty() && setting.section != kSection) continue;
         const std::string place = fmt::format("{}:{}", name, setting.line);
         if (!seen.emplace(setting.section, setting.key).second)

@@ -2,7 +2,7 @@
 #include "workbench.h"
 
 #include <asperity/core/error.h>
-#include <asperity/formats/results/experiment_text.h>
+#include <asperity/gonio/experiment_text.h>
 
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace {
 // Settings are equal if and only if their texts are.
 
 bool same_experiment(const Experiment& a, const Experiment& b) {
-    return io::to_text(a) == io::to_text(b);
+    return to_text(a) == to_text(b);
 }
 
 bool same_surface(const SurfaceSettings& a, const SurfaceSettings& b) {

@@ -3,7 +3,7 @@
 
 #include <asperity/bsdf/models/cook_torrance.h>
 #include <asperity/core/error.h>
-#include <asperity/formats/results/experiment_text.h>
+#include <asperity/gonio/experiment_text.h>
 #include <asperity/formats/results/result_file.h>
 #include <asperity/measured/baked_brdf.h>
 #include <asperity/measured/tabulated.h>
@@ -121,7 +121,7 @@ WornBrdfs::Simulated WornBrdfs::simulate(const Source& source, Run& run) {
     return {source,
             bake_brdf(*table, run),
             QString::fromStdString(measurement->surface_name),
-            {{"experiment", io::to_text(measurement->experiment)},
+            {{"experiment", to_text(measurement->experiment)},
              {"experiment-checksum", io::checksum(*measurement)}}};
 }
 

@@ -39,7 +39,7 @@ void open_result(Workbench& workbench, const QString& path) {
 
 void open_surface(Document& document, const QString& path) {
     document.change(QObject::tr("Surface File"), [&path](StudioSettings& settings) {
-        settings.experiment.surface.kind = SurfaceKind::File;
+        settings.experiment.surface.kind = kSurfaceFile;
         settings.experiment.surface.file = path.toStdString();
         settings.scene = SceneKind::Surface;
     });

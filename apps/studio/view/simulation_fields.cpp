@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulation_fields.h"
 
+#include "../model/settings_keys.h"
+#include "param_control.h"
+
 #include <asperity/gonio/experiment.h>
 #include <asperity/optics/materials.h>
 
 #include <QSignalBlocker>
 
 #include <cmath>
-#include <limits>
 
 namespace asperity::studio {
 
@@ -52,6 +54,9 @@ OpticsSettings optics_of(int facets) {
     }
     return optics;
 }
+
+/// Shown digits end here; files may hold fewer rays a cell.
+constexpr double kLeastJitter = 0.001;
 
 int layer_count(const IlluminationSettings& light) {
     if (light.theta_deg.empty()) return light.layers;
@@ -98,10 +103,9 @@ SimulationFields::SimulationFields(Workbench& workbench, QWidget* parent)
 }
 
 void SimulationFields::add_rays() {
-    auto* jitter = new NumberBox(1, 4096, 2, 1);
-    add_named_row(tr("Camera Jitter"), jitter,
-                  tr("How often the light camera is shifted by less than a cell: rays per cell and "
-                     "layer. Twice as many, errors smaller by sqrt(2)"));
+    const Param<StudioSettings>& row = *asperity::find(all_params(), "jitter");
+    auto* jitter = new NumberBox(kLeastJitter, row.info.range.high, 3, 1);
+    add_named_row(tr("Camera Jitter"), jitter, tooltip_of(row));
     lock_.add(jitter);
     bindings_.bind(
         jitter, tr("Camera Jitter"),
@@ -110,18 +114,15 @@ void SimulationFields::add_rays() {
             s.experiment.run.jitter = value;
             s.experiment.run.rays = 0;
         });
+    add_setting("bounces");
+}
 
-    auto* bounces = new QSpinBox;
-    bounces->setRange(1, 10000);
-    add_named_row(
-        tr("Ray Bounces"), bounces,
-        tr("How often a ray may be reflected; the energy of one that is still travelling then "
-           "is counted as truncated"));
-    lock_.add(bounces);
-    bindings_.bind(
-        bounces, tr("Ray Bounces"),
-        [](const StudioSettings& s) { return s.experiment.run.bounces; },
-        [](StudioSettings& s, int value) { s.experiment.run.bounces = value; });
+void SimulationFields::add_setting(const char* name) {
+    const Param<StudioSettings>& param = *asperity::find(all_params(), name);
+    const QString label = QString::fromStdString(asperity::label(param.info));
+    QWidget* const control = make_control(param, label, bindings_, workbench_.document());
+    add_named_row(label, control, tooltip_of(param));
+    lock_.add(control);
 }
 
 void SimulationFields::add_layer() {
@@ -159,17 +160,19 @@ void SimulationFields::add_facets() {
     const auto first = [](const std::vector<double>& list, double otherwise) {
         return list.empty() ? otherwise : list.front();
     };
-    auto* f0 = new SliderField("f0", 0, 1, 3, 0.01);
-    add_named_row(tr("F0"), f0, tr("Reflectance along the normal, 0 .. 1 (thesis eq. 3.3)"));
+    const Param<StudioSettings>& f0_row = *asperity::find(all_params(), "f0");
+    auto* f0 = new SliderField("f0", f0_row.info.range.low, f0_row.info.range.high, 3, 0.01);
+    add_named_row(tr("F0"), f0, tooltip_of(f0_row));
     lock_.add(f0);
     bindings_.bind(
         f0, tr("F0"),
         [first](const StudioSettings& s) { return first(s.experiment.optics.f0, 0.04); },
         [](StudioSettings& s, double value) { s.experiment.optics.f0 = {value}; });
 
-    auto* index = new NumberBox(0.01, 100, 3, 0.1);
+    const Param<StudioSettings>& index_row = *asperity::find(all_params(), "ior");
+    auto* index = new NumberBox(0.001, index_row.info.range.high, 3, 0.1);
     index->setObjectName("ior");
-    add_named_row(tr("Refractive Index"), index, tr("Inside against outside; glass has about 1.5"));
+    add_named_row(tr("Refractive Index"), index, tooltip_of(index_row));
     lock_.add(index);
     bindings_.bind(
         index, tr("Refractive Index"),
@@ -183,9 +186,7 @@ void SimulationFields::add_facets() {
 
     auto* isotropic = new QCheckBox(tr("Light from all azimuths"));
     isotropic->setObjectName("isotropic");
-    isotropic->setToolTip(
-        tr("Every ray comes from an azimuth of its own, outgoing ones are counted from it: best "
-           "for surfaces that are the same from all sides, such as models wear"));
+    isotropic->setToolTip(tooltip_of(*asperity::find(all_params(), "isotropic")));
     form().addRow(QString(), isotropic);
     lock_.add(isotropic);
     bindings_.bind(
@@ -193,16 +194,7 @@ void SimulationFields::add_facets() {
         [](const StudioSettings& s) { return s.experiment.illumination.isotropic; },
         [](StudioSettings& s, bool on) { s.experiment.illumination.isotropic = on; });
 
-    auto* seed = new QSpinBox;
-    seed->setRange(0, std::numeric_limits<int>::max());
-    add_named_row(tr("Seed"), seed, tr("Of the rays. Same settings and seed, same bits"));
-    lock_.add(seed);
-    bindings_.bind(
-        seed, tr("Seed"),
-        [](const StudioSettings& s) { return static_cast<int>(s.experiment.run.seed); },
-        [](StudioSettings& s, int value) {
-            s.experiment.run.seed = static_cast<std::uint64_t>(value);
-        });
+    add_setting("seed");
 }
 
 }  // namespace asperity::studio

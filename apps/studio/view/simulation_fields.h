@@ -27,6 +27,8 @@ class SimulationFields : public Section {
 
   private:
     void add_rays();
+    /// The row of a setting of the experiment.
+    void add_setting(const char* name);
     void add_layer();
     void add_facets();
 

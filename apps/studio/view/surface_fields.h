@@ -4,6 +4,10 @@
 #include "bindings.h"
 #include "section.h"
 
+#include <asperity/params/param.h>
+
+#include <functional>
+
 namespace asperity::studio {
 
 /// "Surface Settings": which kind of surface, its size, and the fields of the chosen kind.
@@ -17,13 +21,16 @@ class SurfaceFields : public Section {
     void open_file();
 
   private:
-    using Shown = bool (*)(const SurfaceSettings&);
+    using Shown = std::function<bool(const StudioSettings&)>;
     void add_kind();
+    /// The row of a setting of surfaces, there when the chosen kind uses it.
+    void add_setting(const Param<StudioSettings>& param);
+    void add_alphas(const Param<StudioSettings>& param, const Shown& used);
+    void add_correlation_length(const Param<StudioSettings>& param, const Shown& used);
+    void add_period(const Param<StudioSettings>& param, const Shown& used);
+    void add_direction(const Param<StudioSettings>& param, const Shown& used);
+    void add_file();
     void add_size();
-    void add_thesis_fields();
-    void add_random_fields();
-    void add_shape_fields();
-    void add_file_fields();
     /// A row that is there for some kinds only. Locked while a drawing runs.
     void add_row(const QString& label, QWidget* control, const QString& tooltip, Shown shown);
     void show_rows();

@@ -33,7 +33,7 @@ void set_common(StudioSettings& s) {
 }
 
 void make_gaussian(StudioSettings& s, double alpha) {
-    s.experiment.surface.kind = SurfaceKind::Gaussian;
+    s.experiment.surface.kind = "gaussian";
     s.experiment.surface.alpha_x = s.experiment.surface.alpha_y = alpha;
 }
 

@@ -30,7 +30,7 @@ ParamTable<OpticsSettings> optics_params() {
                        .range = kZeroToOne,
                        .absent = "none",
                        .doc = "schlick: reflectance along the normal, one or per channel",
-                       .otherwise = "from --ior"}),
+                       .otherwise = "from the index"}),
         field(&S::ior, {.name = "ior",
                         .label = "Refractive Index",
                         .metavar = "N[,...]",

@@ -31,7 +31,7 @@ template <typename T>
 constexpr ParamType type_of() {
     if constexpr (std::same_as<T, bool>)
         return ParamType::Flag;
-    else if constexpr (std::same_as<T, int>)
+    else if constexpr (std::same_as<T, int> || std::same_as<T, std::int64_t>)
         return ParamType::Integer;
     else if constexpr (std::same_as<T, std::uint64_t>)
         return ParamType::Natural;
@@ -93,6 +93,8 @@ inline double to_entry(double x) {
     return x;
 }
 inline double to_entry(const std::optional<double>& x) {
+    // NaN says that the entry is open: one that was given becomes infinite, which no range takes.
+    if (x && std::isnan(*x)) return std::numeric_limits<double>::infinity();
     return x.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 inline void from_entry(double entry, double& x) {
@@ -103,6 +105,16 @@ inline void from_entry(double entry, std::optional<double>& x) {
 }
 
 }  // namespace detail
+
+/// Rows for what access(settings) refers to, a field of a field for instance.
+template <typename S, typename Access>
+Param<S> field_at(Access access, ParamInfo info) {
+    return detail::row<S>(std::move(info), access);
+}
+template <typename S, typename Access, typename Enum, std::size_t N>
+Param<S> field_at(Access access, const Names<Enum, N>& names, ParamInfo info) {
+    return detail::choice_row<S>(std::move(info), names, access);
+}
 
 /// A row for a field of type bool, int, std::uint64_t, double, std::string or a list of double.
 /// Where `info.absent` names a word, it stands for zero or an empty text.

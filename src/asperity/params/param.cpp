@@ -76,27 +76,36 @@ std::string list_text(const ParamInfo& info, const std::vector<double>& list) {
 
 }  // namespace
 
+namespace {
+
+/// The end of a range, as one would write it: 0.0001, 32768, 1e+15.
+std::string end_text(double x) {
+    return std::abs(x) < 1e5 ? fmt::format("{}", x) : shortest(x);
+}
+
+}  // namespace
+
 std::string Range::rule() const {
     const bool below = high != kNoEnd, above = low != -kNoEnd;
     if (!below && !above) return "must be finite";
     if (below && above && !low_open && !high_open)
-        return fmt::format("must be in {} .. {}", shortest(low), shortest(high));
+        return fmt::format("must be in {} .. {}", end_text(low), end_text(high));
     if (!below && low == 0 && !low_open) return "must not be negative";
     std::string rule = "must be ";
-    if (above) rule += (low_open ? "above " : "at least ") + shortest(low);
+    if (above) rule += fmt::format("{} {}", low_open ? "above" : "at least", end_text(low));
     if (below && above) rule += " and ";
-    if (below) rule += (high_open ? "below " : "at most ") + shortest(high);
+    if (below) rule += fmt::format("{} {}", high_open ? "below" : "at most", end_text(high));
     return rule;
 }
 
 std::string Range::text() const {
     const bool below = high != kNoEnd, above = low != -kNoEnd;
     if (below && above && !low_open && !high_open)
-        return fmt::format("{} .. {}", shortest(low), shortest(high));
+        return fmt::format("{} .. {}", end_text(low), end_text(high));
     std::string text;
-    if (above) text += (low_open ? "above " : "at least ") + shortest(low);
+    if (above) text += fmt::format("{} {}", low_open ? "above" : "at least", end_text(low));
     if (below && above) text += ", ";
-    if (below) text += (high_open ? "below " : "at most ") + shortest(high);
+    if (below) text += fmt::format("{} {}", high_open ? "below" : "at most", end_text(high));
     return text;
 }
 
@@ -181,6 +190,16 @@ std::string metavar(const ParamInfo& info) {
             return "X[,Y]";
     }
     return {};
+}
+
+std::string help_text(const ParamInfo& info) {
+    std::string text = info.users.empty() ? info.doc : info.users + ": " + info.doc;
+    const std::string range = info.range.text();
+    if (!range.empty())
+        text += "; " + range + (info.unit.empty() ? "" : " " + info.unit);
+    else if (!info.unit.empty())
+        text += ", in " + info.unit;
+    return text;
 }
 
 std::string label(const ParamInfo& info) {

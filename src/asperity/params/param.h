@@ -43,8 +43,10 @@ struct ParamInfo {
     std::string absent = {};  ///< word for no value, "auto" or "none"; empty: there is always one
     std::string doc = {};     ///< one sentence, without a capital and without its full stop
     std::string otherwise =
-        {};                ///< what holds where nothing is set, if the default does not say it
-    bool percent = false;  ///< numbers may end in '%'
+        {};                  ///< what holds where nothing is set, if the default does not say it
+    std::string users = {};  ///< who uses it, "gaussian, ggx"; empty: all
+    bool written_where_used = false;   ///< in files only where it counts: newer than old files
+    bool percent = false;              ///< numbers may end in '%'
     std::size_t most = SIZE_MAX;       ///< entries of a list
     ParamType type = ParamType::Text;  ///< the makers of rows below set it
 };
@@ -61,6 +63,8 @@ void check(const ParamInfo& info, const ParamValue& value);
 std::string format(const ParamInfo& info, const ParamValue& value);
 /// The name of the value in help: "N", "X[,Y]", the choices.
 std::string metavar(const ParamInfo& info);
+/// Who uses it, what it does, and its range: a line of help.
+std::string help_text(const ParamInfo& info);
 /// "correlation-length" -> "Correlation Length" where the row brings no label.
 std::string label(const ParamInfo& info);
 
@@ -98,11 +102,10 @@ const Param<Settings>* find(const ParamTable<Settings>& table, std::string_view 
     return nullptr;
 }
 
-/// Throws Error(Usage, name) for the first setting that counts and lies outside its range.
+/// Throws Error(Usage, name) for the first setting outside its range, whether or not it counts.
 template <typename Settings>
 void check_all(const ParamTable<Settings>& table, const Settings& settings) {
-    for (const Param<Settings>& param : table)
-        if (param.used(settings)) param.check(settings);
+    for (const Param<Settings>& param : table) param.check(settings);
 }
 
 /// Adds the rows of a part to those of the struct that holds it: append(t, rows, &Whole::part).

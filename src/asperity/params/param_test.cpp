@@ -127,13 +127,15 @@ TEST(Param, RangesHaveEnds) {
     EXPECT_EQ(kAnyNumber.text(), "");
 }
 
-TEST(Param, ChecksWhatCounts) {
+TEST(Param, ChecksWholeTables) {
     Lamp lamp;
+    EXPECT_NO_THROW(check_all(lamp_params(), lamp));
     lamp.bulbs = 20;
     EXPECT_THROW(check_all(lamp_params(), lamp), Error);
     lamp.on = false;
     EXPECT_FALSE(find(lamp_params(), "bulbs")->used(lamp));
-    EXPECT_NO_THROW(check_all(lamp_params(), lamp));
+    EXPECT_TRUE(find(lamp_params(), "seed")->used(lamp));
+    lamp.bulbs = 3;
     lamp.x = std::nan("");
     EXPECT_THROW(check_all(lamp_params(), lamp), Error);
 }
@@ -155,6 +157,11 @@ TEST(Param, PartsOfAWhole) {
 TEST(Param, WordsOfForms) {
     EXPECT_EQ(label({.name = "correlation-length"}), "Correlation Length");
     EXPECT_EQ(label({.name = "jitter", .label = "Camera Jitter"}), "Camera Jitter");
+    EXPECT_EQ(
+        help_text(
+            {.name = "a", .unit = "cells", .range = {1, 9}, .doc = "a width", .users = "ggx"}),
+        "ggx: a width; 1 .. 9 cells");
+    EXPECT_EQ(help_text({.name = "a", .unit = "cells", .doc = "a width"}), "a width, in cells");
     EXPECT_EQ(metavar(find(lamp_params(), "size")->info), "X[,Y]");
     EXPECT_EQ(metavar(find(lamp_params(), "on")->info), "");
 }

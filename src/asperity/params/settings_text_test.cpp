@@ -43,11 +43,13 @@ TEST(SettingsText, GroupsAreHeadings) {
         double power = 40;
         bool on = true;
     };
-    const ParamTable<Lamp> table = {
+    ParamTable<Lamp> table = {
         field(&Lamp::bulbs, {.name = "bulbs", .group = "Lamp"}),
         field(&Lamp::power, {.name = "power", .group = "Lamp"}),
         field(&Lamp::on, {.name = "on", .group = "Wall"}),
     };
+    table.push_back(field(&Lamp::on, {.name = "new", .group = "Wall", .written_where_used = true}));
+    table.back().unused = [](const Lamp& l) { return l.on ? "the lamp is on" : ""; };
     EXPECT_EQ(settings_text(table, Lamp{}), "# Lamp\nbulbs = 3\npower = 40\n# Wall\non = true\n");
 }
 

@@ -6,8 +6,7 @@
 namespace asperity {
 
 /// Throws Error(Usage, ..., "name of the setting as on the command line") unless every number lies
-/// in its range and those that `kind` uses fit each other. Ranges are checked whether or not the
-/// kind uses the setting. NaN is in no range.
+/// in its range, whether or not the kind uses it. NaN is in no range.
 void check_settings(const SurfaceSettings& settings);
 
 /// The spacing of the samples along x and y: 1 by default; one given value counts for both.

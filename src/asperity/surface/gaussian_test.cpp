@@ -17,7 +17,7 @@ using testing::make;
 using testing::settings_of;
 
 SurfaceSettings gaussian(int size, double alpha, double length) {
-    SurfaceSettings s = settings_of(SurfaceKind::Gaussian, size);
+    SurfaceSettings s = settings_of("gaussian", size);
     s.alpha_x = s.alpha_y = alpha;
     s.correlation_x = s.correlation_y = length;
     return s;

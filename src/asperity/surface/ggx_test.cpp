@@ -16,7 +16,7 @@ using testing::make;
 using testing::settings_of;
 
 SurfaceSettings ggx(int size, double alpha_x, double alpha_y, double length = 8) {
-    SurfaceSettings s = settings_of(SurfaceKind::Ggx, size);
+    SurfaceSettings s = settings_of("ggx", size);
     s.alpha_x = alpha_x;
     s.alpha_y = alpha_y;
     s.correlation_x = s.correlation_y = length;
@@ -136,7 +136,7 @@ TEST(Ggx, WorksOnOblongCells) {
 
 // Other laws, other starting points: from thesis noise to Beckmann.
 TEST(ImposeSlopeLaw, TurnsNoiseIntoBeckmann) {
-    SurfaceSettings settings = settings_of(SurfaceKind::Thesis, 256);
+    SurfaceSettings settings = settings_of("thesis", 256);
     settings.roughness = 0.05;
     Heightfield surface = make(settings);
     const SlopeLaw law{SlopeFamily::Beckmann, 0.3, 0.3};

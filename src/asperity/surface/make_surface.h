@@ -7,7 +7,8 @@
 
 namespace asperity {
 
-/// Makes the surface the settings describe; every kind but File (io::read_surface does all kinds).
+/// Makes the surface the settings describe; every kind but kSurfaceFile (io::load_surface does
+/// all).
 ///
 /// Same settings, same bits, for any number of threads. Throws Error(Usage, "name of the setting")
 /// for values outside their range, Error(OutOfMemory), Error(Stopped) when run.stop_requested().

@@ -4,8 +4,8 @@
 #include <asperity/core/error.h>
 #include <asperity/surface/gaussian.h>
 #include <asperity/surface/ggx.h>
-#include <asperity/surface/shapes.h>
 #include <asperity/surface/statistics.h>
+#include <asperity/surface/surface_kinds.h>
 #include <asperity/surface/surface_testing.h>
 #include <asperity/surface/thesis_noise.h>
 
@@ -23,10 +23,12 @@ namespace {
 using testing::make;
 using testing::settings_of;
 
-const std::vector<SurfaceKind> kMadeKinds = {
-    SurfaceKind::Thesis,   SurfaceKind::Gaussian, SurfaceKind::Ggx,      SurfaceKind::Flat,
-    SurfaceKind::Tilted,   SurfaceKind::VGroove,  SurfaceKind::Sawtooth, SurfaceKind::Pyramids,
-    SurfaceKind::Sinusoid, SurfaceKind::Eggcrate};
+std::vector<std::string> made_kinds() {
+    std::vector<std::string> names;
+    for (const SurfaceKind& kind : surface_kinds()) names.push_back(kind.name);
+    return names;
+}
+const std::vector<std::string> kMadeKinds = made_kinds();
 
 void expect_refused(const SurfaceSettings& settings, const std::string& where) {
     try {
@@ -42,7 +44,7 @@ void expect_refused(const SurfaceSettings& settings, const std::string& where) {
 }
 
 TEST(MakeSurface, EveryKindMakesASoundSurface) {
-    for (const SurfaceKind kind : kMadeKinds)
+    for (const std::string& kind : kMadeKinds)
         for (const int size : {64, 80}) {
             const Heightfield s = make(settings_of(kind, size));
             EXPECT_EQ(s.nx, size);
@@ -58,8 +60,7 @@ TEST(MakeSurface, EveryKindMakesASoundSurface) {
 }
 
 TEST(MakeSurface, SmallestSize) {
-    for (const SurfaceKind kind : {SurfaceKind::Thesis, SurfaceKind::Gaussian, SurfaceKind::Ggx,
-                                   SurfaceKind::Flat, SurfaceKind::Tilted}) {
+    for (const std::string kind : {"thesis", "gaussian", "ggx", "flat", "tilted"}) {
         SurfaceSettings s = settings_of(kind, 2);
         s.correlation_x = s.correlation_y = 1;
         EXPECT_NO_THROW(validate(make(s), "size 2"));
@@ -67,12 +68,11 @@ TEST(MakeSurface, SmallestSize) {
 }
 
 TEST(MakeSurface, DeclaresIsotropyOnlyWhereItHolds) {
-    for (const SurfaceKind kind : kMadeKinds) {
-        const bool isotropic =
-            kind == SurfaceKind::Flat || kind == SurfaceKind::Gaussian || kind == SurfaceKind::Ggx;
+    for (const std::string& kind : kMadeKinds) {
+        const bool isotropic = kind == "flat" || kind == "gaussian" || kind == "ggx";
         EXPECT_EQ(make(settings_of(kind, 64)).isotropic, isotropic);
     }
-    SurfaceSettings s = settings_of(SurfaceKind::Gaussian, 64);
+    SurfaceSettings s = settings_of("gaussian", 64);
     s.alpha_y = 0.25;
     EXPECT_FALSE(make(s).isotropic);
 }
@@ -104,7 +104,7 @@ TEST(MakeSurface, RefusesValuesOutOfRange) {
     };
     for (const Case& c : cases)
         for (const double value : c.values)
-            for (const SurfaceKind kind : {SurfaceKind::Gaussian, SurfaceKind::Flat}) {
+            for (const std::string kind : {"gaussian", "flat"}) {
                 SurfaceSettings s = settings_of(kind, 64);
                 c.change(s, value);
                 SCOPED_TRACE(value);
@@ -113,45 +113,45 @@ TEST(MakeSurface, RefusesValuesOutOfRange) {
 }
 
 TEST(MakeSurface, RefusesSettingsThatContradictEachOther) {
-    SurfaceSettings s = settings_of(SurfaceKind::VGroove, 60);
+    SurfaceSettings s = settings_of("vgroove", 60);
     s.period = 16;
     expect_refused(s, "period");
-    for (const SurfaceKind kind : {SurfaceKind::VGroove, SurfaceKind::Pyramids}) {
+    for (const std::string kind : {"vgroove", "pyramids"}) {
         s = settings_of(kind, 60);
         s.period = 15;
         expect_refused(s, "period");
     }
-    s = settings_of(SurfaceKind::Sinusoid, 60);
+    s = settings_of("sinusoid", 60);
     s.period = 3;
     expect_refused(s, "period");
-    s = settings_of(SurfaceKind::Gaussian, 64);
+    s = settings_of("gaussian", 64);
     s.correlation_x = s.correlation_y = 65;
     expect_refused(s, "correlation-length");
-    s = settings_of(SurfaceKind::Ggx, 64);
+    s = settings_of("ggx", 64);
     s.correlation_y = 5;
     expect_refused(s, "correlation-length");
-    s = settings_of(SurfaceKind::Ggx, 64);
+    s = settings_of("ggx", 64);
     s.max_slope = 0.3;
     expect_refused(s, "max-slope");
-    s = settings_of(SurfaceKind::Gaussian, 64);
+    s = settings_of("gaussian", 64);
     s.alpha_x = 0.9;
     s.alpha_y = 0.001;
     expect_refused(s, "alpha");
-    s = settings_of(SurfaceKind::Flat, 64);
+    s = settings_of("flat", 64);
     s.cell_x = 1;
     s.cell_y = 101;
     expect_refused(s, "cell-size");
-    s = settings_of(SurfaceKind::Tilted, 1024);
+    s = settings_of("tilted", 1024);
     s.tilt_deg = 89.9999999999;
     s.cell_x = 1e15;
     s.height_scale = 1e9;
     expect_refused(s, "height-scale");
-    s = settings_of(SurfaceKind::File, 64);
+    s = settings_of(kSurfaceFile, 64);
     expect_refused(s, "surface");
 }
 
 TEST(MakeSurface, IgnoresWhatItsKindDoesNotUse) {
-    SurfaceSettings s = settings_of(SurfaceKind::Thesis, 121);
+    SurfaceSettings s = settings_of("thesis", 121);
     s.period = 16;                             // does not divide 121
     s.correlation_x = s.correlation_y = 1000;  // longer than the tile
     EXPECT_NO_THROW(make(s));
@@ -159,8 +159,7 @@ TEST(MakeSurface, IgnoresWhatItsKindDoesNotUse) {
 
 // A cell of 0.5 units halves the heights and keeps the slopes; a height scale multiplies both.
 TEST(MakeSurface, CellSizeKeepsSlopesAndHeightScaleDoesNot) {
-    for (const SurfaceKind kind : {SurfaceKind::Thesis, SurfaceKind::Gaussian, SurfaceKind::Ggx,
-                                   SurfaceKind::VGroove, SurfaceKind::Eggcrate}) {
+    for (const std::string kind : {"thesis", "gaussian", "ggx", "vgroove", "eggcrate"}) {
         SurfaceSettings settings = settings_of(kind, 64);
         const auto plain = statistics(make(settings), 2);
         settings.cell_x = 0.5;  // counts for y too
@@ -178,7 +177,7 @@ TEST(MakeSurface, CellSizeKeepsSlopesAndHeightScaleDoesNot) {
 }
 
 TEST(MakeSurface, AFinitePatchHasTheSameHeights) {
-    for (const SurfaceKind kind : {SurfaceKind::Thesis, SurfaceKind::Ggx, SurfaceKind::Pyramids}) {
+    for (const std::string kind : {"thesis", "ggx", "pyramids"}) {
         SurfaceSettings settings = settings_of(kind, 64);
         const Heightfield whole = make(settings);
         settings.boundary = Boundary::Finite;
@@ -190,7 +189,7 @@ TEST(MakeSurface, AFinitePatchHasTheSameHeights) {
 }
 
 TEST(MakeSurface, ReportsProgressToTheEnd) {
-    for (const SurfaceKind kind : kMadeKinds) {
+    for (const std::string& kind : kMadeKinds) {
         asperity::Run run(2);
         std::string stage;
         run.on_progress([&](const Progress& p) { stage = p.stage; });
@@ -212,7 +211,7 @@ std::uint64_t steps_of(const std::function<void(Heightfield&, Run&)>& maker) {
 }
 
 /// Steps make_surface announces when it begins.
-std::uint64_t announced_steps(SurfaceKind kind) {
+std::uint64_t announced_steps(const std::string& kind) {
     Run run(2);
     std::uint64_t total = 0;
     run.on_progress([&](const Progress& p) { total = p.total; });
@@ -226,20 +225,20 @@ TEST(MakeSurface, AnnouncesTheStepsItTakes) {
     const auto thesis =
         steps_of([](Heightfield& s, asperity::Run& run) { fill_thesis_noise(s, 0.2, 1, run); });
     const auto shape = steps_of([](Heightfield& s, asperity::Run& run) {
-        fill_shape(s, settings_of(SurfaceKind::VGroove, 96), run);
+        find_surface_kind("vgroove")->fill(s, settings_of("vgroove", 96), run);
     });
     const auto gaussian = steps_of(
         [&](Heightfield& s, asperity::Run& run) { fill_gaussian(s, spectrum, 0.3, 1, run); });
     const auto round =
         steps_of([](Heightfield& s, asperity::Run& run) { impose_slope_law(s, {}, 1, run); });
-    EXPECT_EQ(announced_steps(SurfaceKind::Thesis), thesis);
-    EXPECT_EQ(announced_steps(SurfaceKind::VGroove), shape);
-    EXPECT_EQ(announced_steps(SurfaceKind::Gaussian), gaussian);
-    EXPECT_EQ(announced_steps(SurfaceKind::Ggx), gaussian + kGgxRounds * round);
+    EXPECT_EQ(announced_steps("thesis"), thesis);
+    EXPECT_EQ(announced_steps("vgroove"), shape);
+    EXPECT_EQ(announced_steps("gaussian"), gaussian);
+    EXPECT_EQ(announced_steps("ggx"), gaussian + kGgxRounds * round);
 }
 
 TEST(MakeSurface, StopsWhenAsked) {
-    for (const SurfaceKind kind : kMadeKinds) {
+    for (const std::string& kind : kMadeKinds) {
         asperity::Run run(2);
         run.request_stop();
         try {
@@ -260,7 +259,7 @@ TEST(MakeSurface, SaysWhenMemoryIsShort) {
     small.rlim_cur = rlim_t{2} << 30;
     ASSERT_EQ(setrlimit(RLIMIT_AS, &small), 0);
     try {
-        make(settings_of(SurfaceKind::Thesis, kMaxSurfaceSide));
+        make(settings_of("thesis", kMaxSurfaceSide));
         ADD_FAILURE() << "found the memory";
     } catch (const Error& e) {
         EXPECT_EQ(e.code(), ErrorCode::OutOfMemory);

@@ -52,7 +52,7 @@ TEST(SlopeLaw, CumulativeDistributions) {
 // All facets of a 45 degree groove have length 1 / alpha: the distance is the larger part of the
 // law on either side of it.
 TEST(SlopeDistance, OfASingleLength) {
-    const Heightfield surface = make(settings_of(SurfaceKind::VGroove, 32));
+    const Heightfield surface = make(settings_of("vgroove", 32));
     const SlopeLaw law{SlopeFamily::Ggx, 0.5, 0.5};  // F(2) = 0.8
     EXPECT_NEAR(slope_distribution_distance(surface, law, 2), 0.8, 2e-4);
     // Cut at slope 0.5 only lengths up to 1 count: no facet there, the law has F(1) = 0.5
@@ -67,7 +67,7 @@ TEST(SlopeDistance, OfASingleLength) {
 // Gaussian facets follow Beckmann but for chance (0.7 L / side on alpha changes F by half of that)
 // and are far from GGX: max over r of (1 - exp(-r^2)) - r^2 / (1 + r^2) is 0.204 at r = 1.34.
 TEST(SlopeDistance, TellsBeckmannFromGgx) {
-    SurfaceSettings settings = settings_of(SurfaceKind::Gaussian, 1024);
+    SurfaceSettings settings = settings_of("gaussian", 1024);
     settings.correlation_x = settings.correlation_y = 4;
     const Heightfield surface = make(settings);
     EXPECT_LT(slope_distribution_distance(surface, {SlopeFamily::Beckmann, 0.3, 0.3}, 2), 0.004);
@@ -76,7 +76,7 @@ TEST(SlopeDistance, TellsBeckmannFromGgx) {
 }
 
 TEST(SlopeDistribution, OfPyramidsFillsFourBins) {
-    SurfaceSettings settings = settings_of(SurfaceKind::Pyramids, 32);
+    SurfaceSettings settings = settings_of("pyramids", 32);
     settings.tilt_deg = degrees(std::atan(0.5 * std::sqrt(2.0)));  // slopes +-0.5
     const auto d = slope_distribution(make(settings), 1, 4, 2);    // bins of width 0.5
     EXPECT_EQ(d.outside, 0);
@@ -90,7 +90,7 @@ TEST(SlopeDistribution, OfPyramidsFillsFourBins) {
 }
 
 TEST(SlopeDistribution, CountsEveryFacetOnce) {
-    SurfaceSettings settings = settings_of(SurfaceKind::Gaussian, 121);
+    SurfaceSettings settings = settings_of("gaussian", 121);
     const Heightfield surface = make(settings);
     const auto d = slope_distribution(surface, 0.4, 20, 2);
     const double inside = std::accumulate(d.density.begin(), d.density.end(), 0.0) * 0.04 * 0.04;
@@ -101,7 +101,7 @@ TEST(SlopeDistribution, CountsEveryFacetOnce) {
 
 // P22 of a Gaussian surface: exp(-(x^2 + y^2) / alpha^2) / (pi alpha^2).
 TEST(SlopeDistribution, OfAGaussianSurface) {
-    SurfaceSettings settings = settings_of(SurfaceKind::Gaussian, 1024);
+    SurfaceSettings settings = settings_of("gaussian", 1024);
     settings.correlation_x = settings.correlation_y = 4;
     const auto d = slope_distribution(make(settings), 0.6, 12, 2);
     for (int y = 0; y < 12; ++y)

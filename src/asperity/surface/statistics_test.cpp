@@ -33,7 +33,7 @@ TEST(Statistics, OfAFlatSurface) {
 // heights are -4, 4 once and -3 .. 3 twice: sum of fourth powers 2 * 256 + 4 (1 + 16 + 81) = 904,
 // Sku = 904 / 16 / 5.5^2. All facets have slope (+-1, 0): Sdq = 1, area 1 / cos 45.
 TEST(Statistics, OfAGroove) {
-    SurfaceSettings settings = settings_of(SurfaceKind::VGroove, 48);
+    SurfaceSettings settings = settings_of("vgroove", 48);
     const auto s = statistics(make(settings), 2);
     EXPECT_NEAR(s.mean_height, 4, 1e-6);
     EXPECT_NEAR(s.max_height, 8, 1e-6);
@@ -56,7 +56,7 @@ TEST(Statistics, OfAGroove) {
 // Any tilt t: Sdq = tan t, area ratio 1 / cos t.
 TEST(Statistics, OfPyramids) {
     for (const double tilt : {0.0, 10.0, 35.0, 70.0}) {
-        SurfaceSettings settings = settings_of(SurfaceKind::Pyramids, 32);
+        SurfaceSettings settings = settings_of("pyramids", 32);
         settings.tilt_deg = tilt;
         const auto s = statistics(make(settings), 2);
         EXPECT_NEAR(s.rms_gradient, std::tan(radians(tilt)), 1e-5);
@@ -71,7 +71,7 @@ TEST(Statistics, OfPyramids) {
 // A sine has Sq = a / sqrt2, Ssk = 0, Sku = (3/8) / (1/4) = 1.5. Its chord over one cell is
 // (2 a sin(pi / P)) cos(..), so the RMS slope is sqrt2 a sin(pi / P).
 TEST(Statistics, OfASinusoid) {
-    SurfaceSettings settings = settings_of(SurfaceKind::Sinusoid, 64);
+    SurfaceSettings settings = settings_of("sinusoid", 64);
     settings.period = 32;
     settings.amplitude = 3;
     const auto s = statistics(make(settings), 2);
@@ -82,7 +82,7 @@ TEST(Statistics, OfASinusoid) {
     EXPECT_NEAR(s.rms_slope_x, std::sqrt(2.0) * 3 * std::sin(kPi / 32), 1e-6);
     // The eggcrate is two independent sines of half the amplitude: Sq = a / 2, and per axis half
     // the slope of the sinusoid; Sku = (2 * 3/8 + 6 * 1/4) / 16 / (1/4)^2 = 2.25.
-    settings.kind = SurfaceKind::Eggcrate;
+    settings.kind = "eggcrate";
     const auto e = statistics(make(settings), 2);
     EXPECT_NEAR(e.rms_height, 1.5, 1e-6);
     EXPECT_NEAR(e.kurtosis, 2.25, 1e-6);
@@ -115,7 +115,7 @@ TEST(Statistics, OfASpike) {
 
 // A plane tilted along x on a finite patch: mean slope, no variance, no correlation.
 TEST(Statistics, OfAPlane) {
-    SurfaceSettings settings = settings_of(SurfaceKind::Tilted, 33);
+    SurfaceSettings settings = settings_of("tilted", 33);
     settings.tilt_deg = 20;
     settings.boundary = Boundary::Finite;
     const auto s = statistics(make(settings), 2);
@@ -128,7 +128,7 @@ TEST(Statistics, OfAPlane) {
 
 // A far-away zero of height must not cost digits: 1e6 + the groove is still exact in floats.
 TEST(Statistics, KeepDigitsFarFromZero) {
-    Heightfield surface = make(settings_of(SurfaceKind::VGroove, 48));
+    Heightfield surface = make(settings_of("vgroove", 48));
     for (float& h : surface.heights) h = std::round(h) + 1e6F;
     const auto s = statistics(surface, 2);
     EXPECT_NEAR(s.mean_height, 1e6 + 4, 1e-8);
@@ -137,7 +137,7 @@ TEST(Statistics, KeepDigitsFarFromZero) {
 }
 
 TEST(Statistics, SameBitsForAnyNumberOfThreads) {
-    const Heightfield surface = make(settings_of(SurfaceKind::Gaussian, 121));
+    const Heightfield surface = make(settings_of("gaussian", 121));
     const auto one = statistics(surface, 1);
     for (const int threads : {2, 3, 7}) {
         const auto s = statistics(surface, threads);

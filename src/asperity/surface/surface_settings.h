@@ -1,28 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <asperity/params/param.h>
 #include <asperity/surface/heightfield.h>
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
 namespace asperity {
 
-/// The families of surfaces Asperity makes or reads.
-enum class SurfaceKind {
-    Thesis,    ///< independent heights, uniform in [0, 10 roughness] cells (thesis 2.2.2)
-    Gaussian,  ///< Gaussian height field of given alpha and autocorrelation
-    Ggx,       ///< heights whose facet normals follow GGX
-    Flat,      ///< h = 0
-    Tilted,    ///< one facet over the whole tile, its return in the last cell
-    VGroove,   ///< symmetric grooves
-    Sawtooth,  ///< one long facet a period, its return in one cell
-    Pyramids,  ///< h = s (tri(x) + tri(y)): facets of slope (+-s, +-s), all creases on grid lines
-    Sinusoid,  ///< amplitude sin(2 pi x / period)
-    Eggcrate,  ///< amplitude (sin(2 pi x / period) + sin(2 pi y / period)) / 2
-    File,      ///< read from `file`
-};
+/// The kind of a surface that is read from a file, not made.
+inline constexpr const char* kSurfaceFile = "file";
 
 /// How neighbouring heights of a Gaussian surface are related.
 enum class Autocorrelation {
@@ -57,7 +47,7 @@ enum class Tiling {
 ///    chance of a finite tile, about 0.7 L / side.
 /// A ggx surface starts from rules 1 and 2 and meets both alphas; it takes one correlation length.
 struct SurfaceSettings {
-    SurfaceKind kind = SurfaceKind::Thesis;
+    std::string kind = "thesis";  ///< a row of surface_kinds(), or kSurfaceFile
     int size = 512;          ///< samples on a side, 2 .. kMaxSurfaceSide (files bring their own)
     double roughness = 0.2;  ///< thesis: 0 .. 1
     double alpha_x = 0.3,
@@ -71,13 +61,16 @@ struct SurfaceSettings {
     int period = 16;  ///< of shapes [cells]; divides size; even for vgroove, pyramids; waves >= 4
     double amplitude = 1;  ///< of sinusoid and eggcrate [cells]
     bool along_y = false;  ///< tilted, vgroove, sawtooth, sinusoid vary along y, not along x
-    std::string file;      ///< kind File
-    Tiling tiling = Tiling::Auto;          ///< kind File
+    std::string file;      ///< kind kSurfaceFile
+    Tiling tiling = Tiling::Auto;          ///< kind kSurfaceFile
     std::optional<double> cell_x, cell_y;  ///< spacing; default 1 cell, or what the file says;
                                            ///< sides differ by 100 times at most
     double height_scale = 1;  ///< multiplies the heights after all else; negative turns them over
     Diagonal diagonal = Diagonal::Anti;
     Boundary boundary = Boundary::Periodic;  ///< Finite: the made surface as a patch with edges
+    /// Values of settings that only one kind has, by name; those not in it have their defaults. See
+    /// own_field().
+    std::map<std::string, ParamValue, std::less<>> own = {};
 };
 
 }  // namespace asperity

@@ -14,7 +14,7 @@
 namespace asperity::testing {
 
 /// Settings of a kind, with the given size and the defaults for the rest.
-inline SurfaceSettings settings_of(SurfaceKind kind, int size) {
+inline SurfaceSettings settings_of(const std::string& kind, int size) {
     SurfaceSettings s;
     s.kind = kind;
     s.size = size;

@@ -19,7 +19,7 @@ using testing::settings_of;
 // and along (1, -1)/sqrt2 variance H^2/12, alpha = .4082 H. For the main diagonal the sign turns.
 TEST(ThesisNoise, HasTheMomentsOfIndependentUniformHeights) {
     for (const double roughness : {0.05, 0.2, 1.0}) {
-        SurfaceSettings settings = settings_of(SurfaceKind::Thesis, 1024);
+        SurfaceSettings settings = settings_of("thesis", 1024);
         settings.roughness = roughness;
         const auto s = statistics(make(settings), 2);
         const double h = 10 * roughness;
@@ -39,7 +39,7 @@ TEST(ThesisNoise, HasTheMomentsOfIndependentUniformHeights) {
 
 TEST(ThesisNoise, IsAnisotropicAlongTheDiagonals) {
     for (const Diagonal diagonal : {Diagonal::Anti, Diagonal::Main}) {
-        SurfaceSettings settings = settings_of(SurfaceKind::Thesis, 512);
+        SurfaceSettings settings = settings_of("thesis", 512);
         settings.roughness = 0.5;
         settings.diagonal = diagonal;
         const Heightfield surface = make(settings);
@@ -60,7 +60,7 @@ TEST(ThesisNoise, IsAnisotropicAlongTheDiagonals) {
 
 // Heights in 64 equal bins: chi-square of 63 degrees of freedom.
 TEST(ThesisNoise, HeightsAreUniform) {
-    SurfaceSettings settings = settings_of(SurfaceKind::Thesis, 512);
+    SurfaceSettings settings = settings_of("thesis", 512);
     settings.roughness = 0.1;
     std::array<double, 64> counts{};
     for (const float h : make(settings).heights)
@@ -74,7 +74,7 @@ TEST(ThesisNoise, HeightsAreUniform) {
 // are independent. With heights u, u + a, u + b all in [0, H] the density of (a, b) is the length
 // of the interval of u: (H - (max(0, a, b) - min(0, a, b))) / H^3 where positive. H = 1 here.
 TEST(ThesisNoise, FacetSlopesFollowTheirDensity) {
-    SurfaceSettings settings = settings_of(SurfaceKind::Thesis, 512);
+    SurfaceSettings settings = settings_of("thesis", 512);
     settings.roughness = 0.1;
     const Heightfield surface = make(settings);
     constexpr int kBins = 8, kFine = 100;
@@ -112,7 +112,7 @@ TEST(ThesisNoise, FacetSlopesFollowTheirDensity) {
 // Heights are independent: on 512^2 samples the correlation at any lag has standard deviation
 // 1/512.
 TEST(ThesisNoise, NeighboursAreUncorrelated) {
-    SurfaceSettings settings = settings_of(SurfaceKind::Thesis, 512);
+    SurfaceSettings settings = settings_of("thesis", 512);
     settings.roughness = 0.1;
     const auto heights = make(settings).heights;
     for (const std::size_t lag : {1U, 2U, 3U, 4U, 5U, 8U, 16U, 511U, 512U, 513U, 1024U}) {
@@ -126,7 +126,7 @@ TEST(ThesisNoise, NeighboursAreUncorrelated) {
 }
 
 TEST(ThesisNoise, DependsOnTheSeedAlone) {
-    SurfaceSettings settings = settings_of(SurfaceKind::Thesis, 250);
+    SurfaceSettings settings = settings_of("thesis", 250);
     const Heightfield one = make(settings, 1);
     for (const int threads : {2, 3, 7}) EXPECT_EQ(make(settings, threads).heights, one.heights);
     // Seeds n and n + 1 must be unrelated: the correlation of 62,500 samples has sd 0.004
@@ -142,7 +142,7 @@ TEST(ThesisNoise, DependsOnTheSeedAlone) {
 }
 
 TEST(ThesisNoise, ZeroRoughnessIsFlat) {
-    SurfaceSettings settings = settings_of(SurfaceKind::Thesis, 120);
+    SurfaceSettings settings = settings_of("thesis", 120);
     settings.roughness = 0;
     const auto s = statistics(make(settings), 2);
     EXPECT_EQ(s.max_height, 0);

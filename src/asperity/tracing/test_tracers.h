@@ -22,7 +22,7 @@ namespace asperity::test {
 /// A surface to try the tracers on.
 struct Case {
     const char* name;
-    SurfaceKind kind;
+    const char* kind;
     double strength;     ///< roughness or alpha, whichever the kind has
     double ties = 1e-5;  ///< share of the rays that may end otherwise
 };

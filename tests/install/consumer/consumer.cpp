@@ -8,7 +8,7 @@
 
 int main() {
     asperity::Experiment experiment;
-    experiment.surface.kind = asperity::SurfaceKind::Flat;
+    experiment.surface.kind = "flat";
     experiment.surface.size = 16;
     experiment.illumination.theta_deg = {30};
 

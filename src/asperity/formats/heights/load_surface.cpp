@@ -53,7 +53,7 @@ Heightfield load_file(const SurfaceSettings& settings) {
 }  // namespace
 
 Heightfield load_surface(const SurfaceSettings& settings, Run& run) {
-    return settings.kind == SurfaceKind::File ? load_file(settings) : make_surface(settings, run);
+    return settings.kind == kSurfaceFile ? load_file(settings) : make_surface(settings, run);
 }
 
 }  // namespace asperity::io

@@ -43,7 +43,7 @@ auto fields(const Heightfield& s) {
 
 SurfaceSettings settings_for(const std::string& path) {
     SurfaceSettings settings;
-    settings.kind = SurfaceKind::File;
+    settings.kind = kSurfaceFile;
     settings.file = path;
     return settings;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/formats/results/result_fields.h>
 
-#include <asperity/formats/results/experiment_text.h>
+#include <asperity/gonio/experiment_text.h>
 #include <asperity/formats/results/result_file.h>
 
 #include <utility>

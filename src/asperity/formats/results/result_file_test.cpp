@@ -2,7 +2,7 @@
 #include <asperity/formats/results/result_file.h>
 
 #include <asperity/core/energy.h>
-#include <asperity/formats/results/experiment_text.h>
+#include <asperity/gonio/experiment_text.h>
 #include <asperity/formats/results/field_digest.h>
 #include <asperity/formats/results/result_fields.h>
 #include <asperity/formats/results/tensor_file.h>

@@ -14,13 +14,13 @@ namespace {
 using test::Case;
 class WideTracerOn : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Surfaces, WideTracerOn,
-                         testing::Values(Case{"gaussian_smooth", SurfaceKind::Gaussian, 0.14},
-                                         Case{"gaussian", SurfaceKind::Gaussian, 0.42},
-                                         Case{"gaussian_rough", SurfaceKind::Gaussian, 0.99},
-                                         Case{"noise_smooth", SurfaceKind::Thesis, 0.05},
-                                         Case{"noise", SurfaceKind::Thesis, 0.2},
-                                         Case{"noise_rough", SurfaceKind::Thesis, 1.0},
-                                         Case{"ggx", SurfaceKind::Ggx, 0.5}),
+                         testing::Values(Case{"gaussian_smooth", "gaussian", 0.14},
+                                         Case{"gaussian", "gaussian", 0.42},
+                                         Case{"gaussian_rough", "gaussian", 0.99},
+                                         Case{"noise_smooth", "thesis", 0.05},
+                                         Case{"noise", "thesis", 0.2},
+                                         Case{"noise_rough", "thesis", 1.0},
+                                         Case{"ggx", "ggx", 0.5}),
                          test::name_of_case);
 
 TEST_P(WideTracerOn, AgreesWithThePlainTracerRayByRay) {
@@ -141,7 +141,7 @@ TEST(WideTracer, LinesEndSomewhere) {
 
 // A single float tells heights of 1e15 apart by 6.7e7
 TEST(WideTracer, HeightsMayLieFarFromZero) {
-    Heightfield low = test::surface_of({"thesis", SurfaceKind::Thesis, 0.2}, 64);
+    Heightfield low = test::surface_of({"thesis", "thesis", 0.2}, 64);
     for (float& h : low.heights) h = std::round(h * 8) / 8;
     Heightfield high = low;
     for (const float far : {0x1p20f, -0x1p20f}) {

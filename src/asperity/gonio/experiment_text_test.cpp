@@ -1,25 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <asperity/formats/results/experiment_text.h>
+#include <asperity/gonio/experiment_text.h>
 
 #include <asperity/core/energy.h>
-#include <asperity/formats/test_files.h>
+#include <asperity/surface/surface_kinds.h>
+
+#include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <random>
+#include <tuple>
 
-namespace asperity::io {
+namespace asperity {
 namespace {
 
-using test::error_of;
-using test::expect_error;
+std::optional<Error> error_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error;
+    }
+    return std::nullopt;
+}
+
+void expect_error(ErrorCode code, const std::string& part, const std::function<void()>& action) {
+    const auto error = error_of(action);
+    ASSERT_TRUE(error) << "no error: " << part;
+    EXPECT_EQ(error->code(), code);
+    EXPECT_NE(std::string(error->what()).find(part), std::string::npos) << error->what();
+}
 
 // Every field, so that a setting that is forgotten shows.
 auto fields(const SurfaceSettings& s) {
     return std::tie(s.kind, s.size, s.roughness, s.alpha_x, s.alpha_y, s.autocorrelation,
                     s.correlation_x, s.correlation_y, s.hurst, s.max_slope, s.seed, s.tilt_deg,
                     s.period, s.amplitude, s.along_y, s.file, s.tiling, s.cell_x, s.cell_y,
-                    s.height_scale, s.diagonal, s.boundary);
+                    s.height_scale, s.diagonal, s.boundary, s.own);
 }
 
 void expect_equal(const Experiment& a, const Experiment& b) {
@@ -74,23 +92,26 @@ class RandomExperiment {
   private:
     SurfaceSettings surface() {
         SurfaceSettings s;
-        s.kind = static_cast<SurfaceKind>(integer(0, 10));
+        std::vector<std::string> kinds = {kSurfaceFile};
+        for (const SurfaceKind& kind : surface_kinds()) kinds.push_back(kind.name);
+        s.kind = kinds[static_cast<std::size_t>(integer(0, static_cast<int>(kinds.size()) - 1))];
+        if (s.kind == "ridges") s.own["land"] = std::int64_t{integer(0, 100)};
         s.size = integer(2, kMaxSurfaceSide);
         s.roughness = number(0, 1);
-        s.alpha_x = number(1e-12, 3), s.alpha_y = number(1e-300, 3);
+        s.alpha_x = number(1e-4, 3), s.alpha_y = number(1e-4, 100);
         s.autocorrelation = static_cast<Autocorrelation>(integer(0, 2));
-        s.correlation_x = number(0.1, 100), s.correlation_y = number(0.1, 1e300);
+        s.correlation_x = number(0.1, 100), s.correlation_y = number(0.1, 32768);
         s.hurst = number(0.001, 1);
         s.max_slope = number(0.1, 50);
         s.seed = engine_();
         s.tilt_deg = number(0, 89.999);
-        s.period = integer(1, 100);
+        s.period = integer(2, 100);
         s.amplitude = number(0, 9);
         s.along_y = integer(0, 1) == 0;
         const std::string names[] = {"a.gsf",          "./flat",    "flat",   "gaussian:x.gsf",
                                      "file:a",         "a b#c.gsf", " a.gsf", "\"q\"\\.gsf",
                                      "two\nlines.gsf", "x.gsf "};
-        if (s.kind == SurfaceKind::File) s.file = names[integer(0, 9)];
+        if (s.kind == kSurfaceFile) s.file = names[integer(0, 9)];
         s.tiling = static_cast<Tiling>(integer(0, 3));
         if (integer(0, 1) == 0) s.cell_x = number(1e-9, 2);
         if (integer(0, 1) == 0) s.cell_y = number(1e-9, 2);
@@ -122,6 +143,7 @@ TEST(ExperimentText, RoundTripsEveryField) {
         EXPECT_EQ(to_text(experiment_from_text(text, "text")), text);
         // Over another experiment, too: every field is written.
         Experiment other = RandomExperiment(seed + 1000).make();
+        other.surface.own.clear();
         for (const Setting& s : settings_of(experiment)) apply_setting(other, s.key, s.value);
         expect_equal(other, experiment);
         if (HasFailure()) FAIL() << text;
@@ -180,13 +202,20 @@ TEST(ExperimentText, SectionsBelongToOthers) {
                      [&] { parse_settings(std::string("size = 8\n") + line + "\n", "e.txt"); });
 }
 
-TEST(ExperimentText, LinesReadBack) {
-    for (const char* value :
-         {"plain", "", " spaced ", "a # b", "\"q\" \\", "two\nlines\r", "[x]"}) {
-        const auto settings = parse_settings(setting_line("file-name", value), "e.txt");
-        ASSERT_EQ(settings.size(), 1u);
-        EXPECT_EQ(settings[0].value, value);
-    }
+TEST(ExperimentText, OldValuesThatDoNotCountAreRead) {
+    const Experiment e = experiment_from_text("surface = a.gsf\nalpha = 1e-09\n", "e.txt");
+    EXPECT_EQ(e.surface.alpha_x, 1e-9);
+    expect_error(ErrorCode::InvalidInput, "e.txt:1: alpha: '1e-09' must be in 0.0001 .. 100",
+                 [] { experiment_from_text("alpha = 1e-09\nsurface = ggx\n", "e.txt"); });
+}
+
+TEST(ExperimentText, SettingsOfOneKindStandWhereItIsUsed) {
+    EXPECT_EQ(to_text(Experiment{}).find("land"), std::string::npos);
+    Experiment e;
+    apply_setting(e, "surface", "ridges:land=6");
+    EXPECT_NE(to_text(e).find("land = 6\n"), std::string::npos);
+    e.surface.kind = "flat";
+    EXPECT_EQ(to_text(e).find("land"), std::string::npos);
 }
 
 TEST(ExperimentText, ReadsListsPairsAndShares) {
@@ -251,15 +280,15 @@ TEST(ExperimentText, RefusesSillyValuesNamingKeyAndValue) {
     bad("size", "99999999999999999999", "is not a whole number");
     bad("size", "8.5", "is not a whole number");
     bad("roughness", "1.001", "must be in 0 .. 1");
-    bad("alpha", "0", "must be above 0");
-    bad("alpha", "-1", "must be above 0");
+    bad("alpha", "0", "must be in 0.0001 .. 100");
+    bad("alpha", "-1", "must be in 0.0001 .. 100");
     bad("tilt", "90", "must be at least 0 and below 90");
     bad("theta", "90", "must be at least 0 and below 90");
-    bad("until", "100%", "must be above 0 and below 1");
-    bad("until", "-1%", "must be above 0 and below 1");
-    bad("rays", "4294967296", "is more than " + std::to_string(kMaxRaysPerLayer));
-    bad("rays", "-1", "is not a whole number of at least 2");
-    bad("rays", "1.5", "is not a whole number of at least 2");
+    bad("until", "1", "must be above 0 and below 1");
+    bad("until", "-0.01", "must be above 0 and below 1");
+    bad("rays", "4294967296", "must be in 2 .. " + std::to_string(kMaxRaysPerLayer));
+    bad("rays", "-1", "is not a whole number");
+    bad("rays", "1.5", "is not a whole number");
     bad("bounces", "0", "must be in 1 .. 10000");
     bad("batches", "1", "must be in 2 .. 4096");
     bad("fresnel", "gold", "is none of none, schlick, dielectric, conductor");
@@ -272,47 +301,5 @@ TEST(ExperimentText, RefusesSillyValuesNamingKeyAndValue) {
     });
 }
 
-TEST(ExperimentText, SurfaceSpecs) {
-    SurfaceSettings s;
-    apply_surface_spec(s, "gaussian");
-    EXPECT_EQ(s.kind, SurfaceKind::Gaussian);
-    apply_surface_spec(s, "ggx:alpha=0.3/0.1,size=256, surface-seed=7");
-    EXPECT_EQ(s.kind, SurfaceKind::Ggx);
-    EXPECT_EQ(s.alpha_x, 0.3);
-    EXPECT_EQ(s.alpha_y, 0.1);
-    EXPECT_EQ(s.size, 256);
-    EXPECT_EQ(s.seed, 7u);
-    apply_surface_spec(s, "some/surface.gsf");
-    EXPECT_EQ(s.kind, SurfaceKind::File);
-    EXPECT_EQ(s.file, "some/surface.gsf");
-    apply_surface_spec(s, "file:flat");
-    EXPECT_EQ(s.kind, SurfaceKind::File);
-    EXPECT_EQ(s.file, "flat");
-    apply_surface_spec(s, "flat");
-    EXPECT_EQ(s.kind, SurfaceKind::Flat);
-    EXPECT_EQ(s.file, "");
-
-    const test::TemporaryFolder folder;
-    test::put(folder / "plain", "x");
-    const auto here = std::filesystem::current_path();
-    std::filesystem::current_path(folder.path());
-    apply_surface_spec(s, "plain");
-    std::filesystem::current_path(here);
-    EXPECT_EQ(s.file, "plain");
-
-    const SurfaceSettings before = s;
-    const auto bad = [&](const std::string& spec, const std::string& part) {
-        expect_error(ErrorCode::Usage, part, [&] { apply_surface_spec(s, spec); });
-        EXPECT_TRUE(fields(s) == fields(before)) << "changed by " << spec;
-    };
-    bad("gaussian:alpha", "surface: 'alpha' is no 'setting=value'");
-    bad("gaussian:", "surface: '' is no 'setting=value'");
-    bad("gaussian:alpha=0.3,theta=30", "surface: 'theta' is no setting of a surface");
-    bad("gaussian:surface=flat", "surface: 'surface' is no setting of a surface");
-    bad("gaussian:size=8,alpha=x", "alpha: 'x' is not a number");
-    bad("bumpy:alpha=1", "surface: 'bumpy:alpha=1' is neither a file nor one of");
-    bad("file:", "surface: the file name is empty");
-}
-
 }  // namespace
-}  // namespace asperity::io
+}  // namespace asperity
