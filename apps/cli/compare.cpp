@@ -20,6 +20,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -105,6 +107,19 @@ Json json_of_pictures(const ImageDifference& d) {
             {"relative_difference", d.relative}};
 }
 
+/// Refuses one that has no difference to another.
+Image picture(const std::string& path) {
+    Image image = io::read_image(path);
+    const auto wrong = std::find_if_not(image.rgb.begin(), image.rgb.end(),
+                                        [](float value) { return std::isfinite(value); });
+    if (wrong == image.rgb.end()) return image;
+    const auto pixel = (wrong - image.rgb.begin()) / 3;
+    throw Error(ErrorCode::InvalidInput,
+                fmt::format("the pixel in row {}, column {} is not a finite number",
+                            pixel / image.width, pixel % image.width),
+                path);
+}
+
 class CompareVerb {
   public:
     explicit CompareVerb(CLI::App& app) {
@@ -140,7 +155,7 @@ class CompareVerb {
             throw Error(ErrorCode::Usage,
                         "pictures bring their own light: these options are for "
                         "two models");
-        const Image a = io::read_image(text_of(a_)), b = io::read_image(text_of(b_));
+        const Image a = picture(text_of(a_)), b = picture(text_of(b_));
         const ImageDifference difference = compare(a, b);
         if (json_) {
             write_json(json_of_pictures(difference));

@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <string>
 
 namespace asperity::cli {
 
@@ -24,7 +25,21 @@ void prepare_standard_streams() {
     }
 }
 
-void write_out(std::string_view text) {
+static std::string printable(std::string_view text) {
+    std::string clean(text);
+    for (std::size_t k = 0; k < clean.size(); ++k) {
+        const auto byte = static_cast<unsigned char>(clean[k]);
+        const auto next = static_cast<unsigned char>(k + 1 < clean.size() ? clean[k + 1] : ' ');
+        // U+0080 to U+009F are such characters, too
+        const bool wide = byte == 0xc2 && next >= 0x80 && next < 0xa0;
+        if (wide) clean.erase(k, 1);
+        if (wide || byte == 0x7f || (byte < 0x20 && byte != '\n' && byte != '\t')) clean[k] = '?';
+    }
+    return clean;
+}
+
+void write_out(std::string_view raw) {
+    const std::string text = printable(raw);
     const std::size_t written = std::fwrite(text.data(), 1, text.size(), stdout);
     if (written == text.size() && std::fflush(stdout) == 0) return;
     if (errno == EPIPE) throw BrokenPipe{};
@@ -32,6 +47,10 @@ void write_out(std::string_view text) {
 }
 
 void write_err(std::string_view text) {
+    write_control(printable(text));
+}
+
+void write_control(std::string_view text) {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
 }

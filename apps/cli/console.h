@@ -13,10 +13,15 @@ struct BrokenPipe {};
 void prepare_standard_streams();
 
 /// Writes to standard output at once. Throws Error(InputOutput) when that fails, BrokenPipe.
+/// Control characters but line ends and tabs, as file names may hold, become '?'.
 void write_out(std::string_view text);
 
 /// Writes to standard error; failure is ignored, there is nobody left to tell.
+/// Control characters as in write_out.
 void write_err(std::string_view text);
+
+/// The same for text of our own that moves the cursor.
+void write_control(std::string_view text);
 
 bool err_is_terminal();
 

@@ -54,7 +54,10 @@ std::vector<std::string> names_of(const std::vector<Verb>& verbs) {
 /// Refuses what no verb or option of the verb took.
 void check_leftovers(const CLI::App& program, const std::vector<Verb>& verbs) {
     const std::vector<CLI::App*> chosen = program.get_subcommands();
-    const std::vector<std::string> leftovers = (chosen.empty() ? &program : chosen[0])->remaining();
+    std::vector<std::string> leftovers = (chosen.empty() ? &program : chosen[0])->remaining();
+    // It ends the options
+    const auto mark = std::find(leftovers.begin(), leftovers.end(), "--");
+    if (mark != leftovers.end()) leftovers.erase(mark);
     if (leftovers.empty()) {
         if (!chosen.empty()) return;
         throw Error(ErrorCode::Usage, fmt::format("no verb given ({}); asperity --help explains",

@@ -197,6 +197,10 @@ void ExperimentOptions::apply_config(Experiment& experiment, const std::string& 
     for (const Setting& setting : settings) {
         const std::string where = fmt::format("{}:{}", path, setting.line);
         CLI::Option* option = app_->get_option_no_throw("--" + setting.key);
+        // What somebody else's file says must not replace a file of the user's
+        if (setting.key == "output")
+            throw Error(ErrorCode::InvalidInput,
+                        "a file of settings may not name the output; say it with -o", where);
         if (setting.key == "fresnel") fresnel_in_config_ = true;
         note_given(setting.key);
         if (find(table, setting.key)) {

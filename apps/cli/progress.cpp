@@ -40,7 +40,7 @@ ProgressBar::~ProgressBar() {
 }
 
 void ProgressBar::clear() {
-    if (drawn_) write_err("\r\x1b[K");
+    if (drawn_) write_control("\r\x1b[K");
     drawn_ = false;
 }
 
@@ -68,7 +68,7 @@ void ProgressBar::show(const Progress& progress) {
     const std::scoped_lock lock(mutex_);
     if (progress.total == 0) return;
     if (terminal_) {
-        write_err(fmt::format("\r{}\x1b[K", line_of(progress)));
+        write_control(fmt::format("\r{}\x1b[K", line_of(progress)));
         drawn_ = true;
         return;
     }

@@ -8,6 +8,8 @@ namespace asperity::cli {
 
 namespace {
 
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
+
 std::atomic<Run*> running{nullptr};
 static_assert(std::atomic<Run*>::is_always_lock_free, "a signal handler may use it");
 
@@ -26,13 +28,19 @@ StopOnSignal::StopOnSignal(Run& run) {
     // Back to the default after the first signal: the second one kills.
     action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
     sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    for (const int signal : kSignals) {
+        struct sigaction before = {};
+        sigaction(signal, nullptr, &before);
+        if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+    }
 }
 
 StopOnSignal::~StopOnSignal() {
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
+    for (const int signal : kSignals) {
+        struct sigaction now = {};
+        sigaction(signal, nullptr, &now);
+        if (now.sa_handler == ask_to_stop) std::signal(signal, SIG_DFL);
+    }
     running = nullptr;
 }
 

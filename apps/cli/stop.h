@@ -5,8 +5,9 @@
 
 namespace asperity::cli {
 
-/// While it lives, the first Ctrl-C (SIGINT) or SIGTERM asks the run to stop; a second one ends the
-/// program at once. One at a time.
+/// While it lives, the first Ctrl-C (SIGINT), SIGTERM or SIGHUP asks the run to stop; a second one
+/// of that kind ends the program at once. What was ignored when the program started, as under
+/// nohup, stays ignored. One at a time.
 class StopOnSignal {
   public:
     explicit StopOnSignal(Run& run);

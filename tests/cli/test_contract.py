@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The spellings other tools call, end to end on tiny settings."""
 import json
+import math
 import os
 import struct
 import subprocess
@@ -253,12 +254,42 @@ class Config(ProgramTest):
     def test_errors_name_file_and_line(self):
         for line, words in (("raiz = 3", "did you mean rays?"), ("rays = many", "rays"),
                             ("rays", "key = value"), ("quiet = perhaps", "quiet"),
-                            ("config = run.txt", "config")):
+                            ("config = run.txt", "config"),
+                            ("output = mine.asperity", "output")):
             with self.subTest(line), open("run.txt", "w", encoding="utf-8") as file:
                 file.write(f"# first\nsize = 64\n{line}\n")
                 file.flush()
                 self.assertIn(words, self.fails(3, "simulate", "--config", "run.txt",
                                                 saying="run.txt:3"))
+
+
+def write_exr_of_one_pixel(path, value):
+    """An EXR file of one pixel, uncompressed, with this value in R, G and B."""
+    def attribute(name, kind, data):
+        return name + b"\0" + kind + b"\0" + struct.pack("<i", len(data)) + data
+    box = struct.pack("<4i", 0, 0, 0, 0)
+    channels = b"".join(name + b"\0" + struct.pack("<iB3xii", 2, 0, 1, 1) for name in (b"B", b"G", b"R"))
+    header = (b"\x76\x2f\x31\x01" + struct.pack("<i", 2) +
+              attribute(b"channels", b"chlist", channels + b"\0") +
+              attribute(b"compression", b"compression", b"\0") +
+              attribute(b"dataWindow", b"box2i", box) + attribute(b"displayWindow", b"box2i", box) +
+              attribute(b"lineOrder", b"lineOrder", b"\0") +
+              attribute(b"pixelAspectRatio", b"float", struct.pack("<f", 1)) +
+              attribute(b"screenWindowCenter", b"v2f", struct.pack("<2f", 0, 0)) +
+              attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1)) + b"\0")
+    with open(path, "wb") as file:
+        file.write(header + struct.pack("<Q", len(header) + 8) + struct.pack("<2i", 0, 12) +
+                   struct.pack("<3f", value, value, value))
+
+
+class ComparePictures(ProgramTest):
+    def test_what_is_no_number_is_refused(self):
+        write_exr_of_one_pixel("good.exr", 0.5)
+        self.assertEqual(self.json_of("compare", "good.exr", "good.exr")["relative_difference"], 0)
+        for value in (math.nan, math.inf, -math.inf):
+            write_exr_of_one_pixel("bad.exr", value)
+            for a, b in (("good.exr", "bad.exr"), ("bad.exr", "good.exr"), ("bad.exr", "bad.exr")):
+                self.fails(3, "compare", a, b, "--json", saying="bad.exr")
 
 
 class Compare(ProgramTest):

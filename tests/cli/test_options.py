@@ -82,6 +82,19 @@ class SillyNumbers(ProgramTest):
                     self.assert_files()
 
 
+class Names(ProgramTest):
+    def test_two_dashes_end_the_options(self):
+        self.passes("simulate", *TINY)
+        self.assertEqual(self.passes("info", "--", "r.asperity"), self.passes("info", "r.asperity"))
+        self.fails(4, "info", "--", "none.asperity", saying="none.asperity")
+
+    def test_control_characters_do_not_reach_the_terminal(self):
+        for name in ("a\x1b[2Jb", "a\x07b", "a\x9bb", "a\x7fb"):
+            with self.subTest(name=name):
+                said = self.fails((3, 4), "info", name + ".asperity")
+                self.assertFalse([c for c in said[:-1] if ord(c) < 32 or 127 <= ord(c) < 160], said)
+
+
 class NearlyRight(ProgramTest):
     def test_suggestions(self):
         for arguments, words in (

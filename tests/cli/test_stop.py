@@ -17,9 +17,9 @@ SOON = 2.0
 
 
 class Stop(ProgramTest):
-    def start(self, *arguments):
+    def start(self, *arguments, **options):
         process = subprocess.Popen([PROGRAM, *arguments], stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE, text=True)
+                                   stderr=subprocess.PIPE, text=True, **options)
         self.addCleanup(process.stdout.close)
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.kill)
@@ -32,7 +32,7 @@ class Stop(ProgramTest):
         return process
 
     def test_keeps_what_is_complete(self):
-        for wish in (signal.SIGINT, signal.SIGTERM):
+        for wish in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with self.subTest(wish):
                 process = self.start_tracing()
                 time.sleep(3)
@@ -48,6 +48,18 @@ class Stop(ProgramTest):
                 self.assertTrue(info["notes"])
                 self.assertGreaterEqual(len(info["layers"]), 1)
                 os.remove("r.asperity")
+
+    def test_what_was_ignored_stays_ignored(self):
+        process = self.start(*LONG, preexec_fn=lambda: [
+            signal.signal(wish, signal.SIG_IGN) for wish in (signal.SIGINT, signal.SIGHUP)])
+        self.assertIn("surface:", process.stdout.readline())
+        for wish in (signal.SIGINT, signal.SIGHUP):
+            process.send_signal(wish)
+        time.sleep(0.5)
+        self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
 
     def test_before_anything_is_complete(self):
         process = self.start_tracing()

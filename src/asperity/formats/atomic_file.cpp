@@ -4,6 +4,7 @@
 #include <asperity/core/error.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -28,11 +29,16 @@ std::string folder_of(const std::string& path) {
     return folder.empty() ? "." : folder;
 }
 
+// How the temporary names for a target begin.
+std::string temporary_stem(const std::string& target) {
+    return fmt::format(".{}.tmp-",
+                       std::filesystem::path(target).filename().string().substr(0, kKeptName));
+}
+
 // A name of its own for every process and call; O_EXCL settles the rest.
 std::string temporary_name(const std::string& target) {
     static std::atomic<unsigned> counter{0};
-    const std::string name = std::filesystem::path(target).filename().string();
-    return fmt::format("{}/.{}.tmp-{}-{}", folder_of(target), name.substr(0, kKeptName), ::getpid(),
+    return fmt::format("{}/{}{}-{}", folder_of(target), temporary_stem(target), ::getpid(),
                        counter.fetch_add(1));
 }
 
@@ -42,6 +48,24 @@ int open_retrying(const char* path, int flags, mode_t mode = 0) {
         descriptor = ::open(path, flags | O_CLOEXEC, mode);
     } while (descriptor < 0 && errno == EINTR);
     return descriptor;
+}
+
+// Removes what killed programs have left of writing `target`: temporary files that nobody has
+// locked.
+void sweep(const std::string& target) {
+    const std::string stem = temporary_stem(target);
+    std::error_code error;
+    for (std::filesystem::directory_iterator at(folder_of(target), error), end; !error && at != end;
+         at.increment(error)) {
+        if (at->path().filename().string().rfind(stem, 0) != 0) continue;
+        const int left = open_retrying(at->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
+        if (left < 0) continue;
+        struct ::stat status {};
+        if (::fstat(left, &status) == 0 && S_ISREG(status.st_mode) &&
+            ::flock(left, LOCK_EX | LOCK_NB) == 0)
+            ::unlink(at->path().c_str());
+        ::close(left);
+    }
 }
 
 bool sync_descriptor(int descriptor) {
@@ -91,11 +115,17 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::open_temporary() {
+    sweep(target_);
     for (int k = 0; k < kNameTries; ++k) {
         temporary_ = temporary_name(target_);
         descriptor_ = open_retrying(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0666);
-        if (descriptor_ >= 0) return;
-        if (errno != EEXIST) break;
+        if (descriptor_ < 0 && errno != EEXIST) break;
+        if (descriptor_ < 0) continue;
+        // Locked, it is in use; one that was swept before is made anew
+        ::flock(descriptor_, LOCK_EX | LOCK_NB);
+        struct ::stat status {};
+        if (::fstat(descriptor_, &status) == 0 && status.st_nlink > 0) return;
+        ::close(std::exchange(descriptor_, -1));
     }
     fail("cannot create");
 }

@@ -13,7 +13,8 @@ namespace asperity::io {
 ///
 /// The bytes go to a hidden temporary file in the same folder; commit() syncs it, renames it over
 /// `path` and syncs the folder. Until then, and after any failure, what stood under `path` is as it
-/// was. Destroyed without commit(), the temporary file is removed.
+/// was. Destroyed without commit(), the temporary file is removed; what a killed program has left
+/// is removed by the next AtomicFile of that name.
 ///
 /// A device or a FIFO (/dev/stdout, /dev/full) cannot be renamed over: it is written directly.
 /// Every member throws Error(InputOutput, path), with the words of the operating system. All files

@@ -66,6 +66,23 @@ TEST(AtomicFile, KeepsPermissionsAndFollowsLinks) {
     EXPECT_EQ(status.st_mode & 07777, 0640u);
 }
 
+TEST(AtomicFile, SweepsWhatKilledProgramsLeft) {
+    const TemporaryFolder folder;
+    put(folder / ".a.txt.tmp-1-0", "half a fi");
+    put(folder / ".b.txt.tmp-1-0", "of another");
+    AtomicFile first(folder / "a.txt");
+    first.write("first");
+    EXPECT_FALSE(std::filesystem::exists(folder / ".a.txt.tmp-1-0"));
+    // One that is being written stays
+    AtomicFile second(folder / "a.txt");
+    second.write("second");
+    first.commit();
+    EXPECT_EQ(get(folder / "a.txt"), "first");
+    second.commit();
+    EXPECT_EQ(get(folder / "a.txt"), "second");
+    EXPECT_EQ(folder.files(), 2);
+}
+
 TEST(AtomicFile, AcceptsTheLongestName) {
     const TemporaryFolder folder;
     const std::string path = folder / std::string(255, 'x');

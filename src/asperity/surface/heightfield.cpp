@@ -29,8 +29,10 @@ void validate(const Heightfield& s, const std::string& where) {
             fmt::format("{} x {} samples are more than {} on a side", s.nx, s.ny, kMaxSurfaceSide));
     if (s.heights.size() != static_cast<std::size_t>(s.nx) * static_cast<std::size_t>(s.ny))
         fail(fmt::format("{} heights for {} x {} samples", s.heights.size(), s.nx, s.ny));
-    if (!(s.dx > 0 && s.dy > 0 && std::isfinite(s.dx) && std::isfinite(s.dy)))
-        fail(fmt::format("cell size {} x {} must be positive", s.dx, s.dy));
+    const auto usable = [](double d) { return d >= kLeastSpacing && d <= kMostSpacing; };
+    if (!usable(s.dx) || !usable(s.dy))
+        fail(fmt::format("cell size {} x {} must be {} to {}", s.dx, s.dy, kLeastSpacing,
+                         kMostSpacing));
     for (std::size_t k = 0; k < s.heights.size(); ++k) {
         if (std::isfinite(s.heights[k])) continue;
         const auto nx = static_cast<std::size_t>(s.nx);

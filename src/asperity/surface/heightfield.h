@@ -69,7 +69,10 @@ inline Vec3 normal_of(Slope s) {
     return normalize({-s.x, -s.y, 1.0});
 }
 
-/// Throws Error(InvalidInput, `where`) unless sizes fit, spacings are positive and finite, there
+/// Distances of samples: beyond, single precision runs out of range.
+inline constexpr double kLeastSpacing = 1e-15, kMostSpacing = 1e15;
+
+/// Throws Error(InvalidInput, `where`) unless sizes fit, spacings are within their limits, there
 /// are at least 2 x 2 samples and every height is finite. Cost: one pass over the heights.
 void validate(const Heightfield& surface, const std::string& where);
 

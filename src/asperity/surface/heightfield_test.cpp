@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <utility>
 
 namespace asperity {
 namespace {
@@ -20,6 +22,21 @@ Heightfield spike() {
     s.dy = 4;
     s.heights = {1, 3, 0, 8, 2, 0, 0, 0, 0};
     return s;
+}
+
+TEST(Validate, SpacingsHaveLimits) {
+    Heightfield s = spike();
+    for (const double good : {kLeastSpacing, 1.0, kMostSpacing}) {
+        s.dx = s.dy = good;
+        EXPECT_NO_THROW(validate(s, "a"));
+    }
+    for (const double bad : {0.9e-15, 1.1e15, 0.0, -1.0, 1e-320, std::nan(""), HUGE_VAL}) {
+        s.dx = 1;
+        s.dy = bad;
+        EXPECT_THROW(validate(s, "a"), Error) << bad;
+        std::swap(s.dx, s.dy);
+        EXPECT_THROW(validate(s, "a"), Error) << bad;
+    }
 }
 
 TEST(FacetSlope, AntiDiagonalPairsBottomWithLeftAndTopWithRight) {
