@@ -27,17 +27,34 @@ if(ASPERITY_SANITIZE)
     set(ASPERITY_TEST_SUFFIX _sanitized)
 endif()
 
+# Only in the build: all of a header-only library is in ours once that is compiled.
+set(ASPERITY_HEADER_ONLY Eigen3::Eigen nlohmann_json::nlohmann_json)
+
 # asperity_module(NAME SOURCES ... [TESTS ...] [LIBS ...] [PRIVATE_LIBS ...])
-# Makes the target asperity_NAME and, from TESTS, the test binary asperity_NAME_test.
+# Makes the target asperity_NAME, which programs elsewhere know as asperity::NAME, the component of the
+# same name, and, from TESTS, the test binary asperity_NAME_test. A module is left out when a library
+# it needs was not asked for (ASPERITY_COMPONENTS) or when a module it needs was left out.
 function(asperity_module name)
     cmake_parse_arguments(M "" "" "SOURCES;TESTS;LIBS;PRIVATE_LIBS" ${ARGN})
+    foreach(lib IN LISTS M_LIBS M_PRIVATE_LIBS)
+        if(lib MATCHES "^asperity_|::|^embree$" AND NOT TARGET ${lib})
+            message(STATUS "asperity_${name} is left out: it needs ${lib}")
+            return()
+        endif()
+    endforeach()
+    set(private ${M_PRIVATE_LIBS})
+    foreach(lib IN LISTS ASPERITY_HEADER_ONLY)
+        list(TRANSFORM private REPLACE "^${lib}$" "$<BUILD_INTERFACE:${lib}>")
+    endforeach()
     add_library(asperity_${name} STATIC ${M_SOURCES})
+    add_library(asperity::${name} ALIAS asperity_${name})
     target_include_directories(asperity_${name} PUBLIC
         $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include>)
     target_link_libraries(asperity_${name} PUBLIC ${M_LIBS}
-        PRIVATE $<BUILD_INTERFACE:asperity_flags> ${M_PRIVATE_LIBS})
+        PRIVATE $<BUILD_INTERFACE:asperity_flags> ${private})
     target_compile_features(asperity_${name} PUBLIC cxx_std_20)
-    install(TARGETS asperity_${name} EXPORT asperity_targets)
+    set_target_properties(asperity_${name} PROPERTIES EXPORT_NAME ${name})
+    set_property(GLOBAL APPEND PROPERTY ASPERITY_MODULES ${name})
     if(ASPERITY_BUILD_TESTS AND M_TESTS)
         asperity_test(asperity_${name}_test LABEL unit SOURCES ${M_TESTS} LIBS asperity_${name})
     endif()
@@ -50,6 +67,9 @@ endfunction()
 # functions take GCC many minutes to compile. Valgrind looks after them, CONTRIBUTING.md.
 function(asperity_vectors name)
     cmake_parse_arguments(V "" "" "KERNELS" ${ARGN})
+    if(NOT TARGET asperity_${name})
+        return()
+    endif()
     target_link_libraries(asperity_${name} PRIVATE hwy)
     target_compile_definitions(asperity_${name} PRIVATE
         HWY_BROKEN_EMU128=0 "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL)")
