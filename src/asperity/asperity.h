@@ -5,6 +5,7 @@
 //     #include <asperity/gonio/measure.h>
 //     #include <asperity/surface/make_surface.h>
 #include <asperity/bsdf/bsdf.h>
+#include <asperity/bsdf/bsdf_models.h>
 #include <asperity/bsdf/models/cook_torrance.h>
 #include <asperity/bsdf/models/lambert.h>
 #include <asperity/bsdf/models/microfacet.h>
@@ -17,6 +18,10 @@
 #include <asperity/core/run.h>
 #include <asperity/core/vec.h>
 #include <asperity/core/version.h>
+#include <asperity/detector/batch_sums.h>
+#include <asperity/detector/detector.h>
+#include <asperity/detector/illumination.h>
+#include <asperity/detector/layer_sums.h>
 #include <asperity/formats/bsdfs/bsdf_format.h>
 #include <asperity/formats/bsdfs/export_source.h>
 #include <asperity/formats/bsdfs/fidelity.h>
@@ -30,10 +35,10 @@
 #include <asperity/formats/models/model_reader.h>
 #include <asperity/formats/models/model_writer.h>
 #include <asperity/formats/read_file.h>
-#include <asperity/formats/results/experiment_text.h>
 #include <asperity/formats/results/result_file.h>
-#include <asperity/detector/detector.h>
 #include <asperity/gonio/experiment.h>
+#include <asperity/gonio/experiment_params.h>
+#include <asperity/gonio/experiment_text.h>
 #include <asperity/gonio/measure.h>
 #include <asperity/gonio/measurement.h>
 #include <asperity/measured/albedo_by_angle.h>
@@ -44,7 +49,13 @@
 #include <asperity/measured/tabulated.h>
 #include <asperity/optics/fresnel.h>
 #include <asperity/optics/materials.h>
+#include <asperity/optics/optics_params.h>
 #include <asperity/optics/optics_settings.h>
+#include <asperity/optics/scattering_law.h>
+#include <asperity/params/fields.h>
+#include <asperity/params/param.h>
+#include <asperity/params/range.h>
+#include <asperity/params/settings_text.h>
 #include <asperity/pictures/canvas.h>
 #include <asperity/pictures/colour_map.h>
 #include <asperity/pictures/layer_view.h>
@@ -70,4 +81,7 @@
 #include <asperity/surface/make_surface.h>
 #include <asperity/surface/slope_distribution.h>
 #include <asperity/surface/statistics.h>
+#include <asperity/surface/surface_kinds.h>
+#include <asperity/surface/surface_params.h>
 #include <asperity/surface/surface_settings.h>
+#include <asperity/surface/surface_text.h>

@@ -12,15 +12,13 @@ namespace {
 
 using test::Case;
 class TracersAgree : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(Surfaces, TracersAgree,
-                         testing::Values(Case{"gaussian_smooth", "gaussian", 0.1414},
-                                         Case{"gaussian", "gaussian", 0.4243},
-                                         Case{"gaussian_rough", "gaussian", 0.99},
-                                         Case{"noise", "thesis", 0.2},
-                                         Case{"noise_rough", "thesis", 1.0},
-                                         Case{"ggx", "ggx", 0.5},
-                                         Case{"pyramids", "pyramids", 0.3, 1e-4}),
-                         test::name_of_case);
+INSTANTIATE_TEST_SUITE_P(
+    Surfaces, TracersAgree,
+    testing::Values(Case{"gaussian_smooth", "gaussian", 0.1414},
+                    Case{"gaussian", "gaussian", 0.4243}, Case{"gaussian_rough", "gaussian", 0.99},
+                    Case{"noise", "thesis", 0.2}, Case{"noise_rough", "thesis", 1.0},
+                    Case{"ggx", "ggx", 0.5}, Case{"pyramids", "pyramids", 0.3, 1e-4}),
+    test::name_of_case);
 
 TEST_P(TracersAgree, ForAMillionRays) {
     const Heightfield s = test::surface_of(GetParam(), 256);

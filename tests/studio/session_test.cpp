@@ -70,7 +70,8 @@ class SessionTest : public QObject {
 
 void SessionTest::every_key_survives_data() {
     QTest::addColumn<QString>("name");
-    for (const Param<StudioSettings>& key : studio_params()) QTest::newRow(key.info.name.c_str()) << QString::fromStdString(key.info.name);
+    for (const Param<StudioSettings>& key : studio_params())
+        QTest::newRow(key.info.name.c_str()) << QString::fromStdString(key.info.name);
 }
 
 void SessionTest::every_key_survives() {
@@ -88,7 +89,8 @@ void SessionTest::every_key_survives() {
     QCOMPARE(session_text(again), text);
     // One key is one field: all others are as they were
     for (const Param<StudioSettings>& other : studio_params())
-        if (other.info.name != key.info.name) QCOMPARE(other.text(again), other.text(StudioSettings{}));
+        if (other.info.name != key.info.name)
+            QCOMPARE(other.text(again), other.text(StudioSettings{}));
 }
 
 void SessionTest::all_keys_together() {
@@ -100,7 +102,8 @@ void SessionTest::all_keys_together() {
     settings.model_view.light_position = {0.1, 1e-300, -2.0 / 3};
     settings.model_view.model = "/models with spaces/a\nb\\c.obj";
     const StudioSettings again = session_from_text(session_text(settings), "session");
-    for (const Param<StudioSettings>& key : studio_params()) QCOMPARE(key.text(again), key.text(settings));
+    for (const Param<StudioSettings>& key : studio_params())
+        QCOMPARE(key.text(again), key.text(settings));
     QCOMPARE(again.model_view.light_position.z, -2.0 / 3);
     QCOMPARE(again.model_view.model, settings.model_view.model);
 }

@@ -3,8 +3,8 @@
 
 #include <asperity/bsdf/models/cook_torrance.h>
 #include <asperity/core/error.h>
-#include <asperity/gonio/experiment_text.h>
 #include <asperity/formats/results/result_file.h>
+#include <asperity/gonio/experiment_text.h>
 #include <asperity/measured/baked_brdf.h>
 #include <asperity/measured/tabulated.h>
 

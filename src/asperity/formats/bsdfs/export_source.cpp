@@ -5,8 +5,8 @@
 #include <asperity/core/version.h>
 #include <asperity/detector/illumination.h>
 #include <asperity/formats/bsdfs/export_source.h>
-#include <asperity/gonio/experiment_text.h>
 #include <asperity/formats/results/result_file.h>
+#include <asperity/gonio/experiment_text.h>
 #include <asperity/measured/tabulated.h>
 
 #include <fmt/format.h>

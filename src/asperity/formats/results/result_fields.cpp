@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/formats/results/result_fields.h>
 
-#include <asperity/gonio/experiment_text.h>
 #include <asperity/formats/results/result_file.h>
+#include <asperity/gonio/experiment_text.h>
 
 #include <utility>
 

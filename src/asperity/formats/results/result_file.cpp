@@ -2,8 +2,8 @@
 #include <asperity/formats/results/result_file.h>
 
 #include <asperity/core/error.h>
-#include <asperity/gonio/experiment_text.h>
 #include <asperity/formats/results/result_fields.h>
+#include <asperity/gonio/experiment_text.h>
 #include <asperity/gonio/measurement_check.h>
 #include <fmt/format.h>
 

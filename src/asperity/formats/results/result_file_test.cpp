@@ -2,11 +2,11 @@
 #include <asperity/formats/results/result_file.h>
 
 #include <asperity/core/energy.h>
-#include <asperity/gonio/experiment_text.h>
 #include <asperity/formats/results/field_digest.h>
 #include <asperity/formats/results/result_fields.h>
 #include <asperity/formats/results/tensor_file.h>
 #include <asperity/formats/test_files.h>
+#include <asperity/gonio/experiment_text.h>
 
 #include <limits>
 #include <random>

@@ -217,10 +217,8 @@ TEST(Horizon, IsTight) {
         return excess / (kCells * Horizon::kSectors);
     };
     double seen = 0;
-    EXPECT_LT(mean_excess(shape("gaussian", 128, 0.1 * std::numbers::sqrt2), seen),
-              0.027);
-    EXPECT_LT(mean_excess(shape("gaussian", 128, 0.3 * std::numbers::sqrt2), seen),
-              0.08);
+    EXPECT_LT(mean_excess(shape("gaussian", 128, 0.1 * std::numbers::sqrt2), seen), 0.027);
+    EXPECT_LT(mean_excess(shape("gaussian", 128, 0.3 * std::numbers::sqrt2), seen), 0.08);
     seen = 0;
     const double excess = mean_excess(noise(128, 128, 0.5, 1), seen);
     EXPECT_LT(excess, seen / 3);

@@ -13,15 +13,13 @@ namespace {
 
 using test::Case;
 class WideTracerOn : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(Surfaces, WideTracerOn,
-                         testing::Values(Case{"gaussian_smooth", "gaussian", 0.14},
-                                         Case{"gaussian", "gaussian", 0.42},
-                                         Case{"gaussian_rough", "gaussian", 0.99},
-                                         Case{"noise_smooth", "thesis", 0.05},
-                                         Case{"noise", "thesis", 0.2},
-                                         Case{"noise_rough", "thesis", 1.0},
-                                         Case{"ggx", "ggx", 0.5}),
-                         test::name_of_case);
+INSTANTIATE_TEST_SUITE_P(
+    Surfaces, WideTracerOn,
+    testing::Values(Case{"gaussian_smooth", "gaussian", 0.14}, Case{"gaussian", "gaussian", 0.42},
+                    Case{"gaussian_rough", "gaussian", 0.99}, Case{"noise_smooth", "thesis", 0.05},
+                    Case{"noise", "thesis", 0.2}, Case{"noise_rough", "thesis", 1.0},
+                    Case{"ggx", "ggx", 0.5}),
+    test::name_of_case);
 
 TEST_P(WideTracerOn, AgreesWithThePlainTracerRayByRay) {
     for (const Diagonal diagonal : {Diagonal::Anti, Diagonal::Main})
