@@ -220,7 +220,7 @@ void add_texts(std::vector<Reader>& all) {
     const auto text = [](const std::string& path) { return get(path); };
     all.push_back({"experiment",
                    "a.txt",
-                   {io::to_text({}), io::to_text(small_measurement().experiment)},
+                   {to_text(Experiment{}), to_text(small_measurement().experiment)},
                    kTextWords,
                    [=](const std::string& path) { experiment_from_text(text(path), path); }});
     all.push_back({"surface-spec",
