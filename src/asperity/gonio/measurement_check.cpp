@@ -87,11 +87,13 @@ std::string imbalance(const Layer& layer, const SumShape& shape, std::size_t cha
 
 }  // namespace
 
-std::string imbalance(const Layer& layer, const SumShape& shape) {
+std::string imbalance(const Layer& layer, const SumShape& shape,
+                      std::span<const std::string> names) {
     if (layer.rays > kMaxRaysPerLayer) return fmt::format("{} rays are too many", layer.rays);
     for (std::size_t channel = 0; channel < shape.channels; ++channel)
         if (const std::string why = imbalance(layer, shape, channel); !why.empty())
-            return fmt::format("channel {}: {}", channel + 1, why);
+            return fmt::format("channel {}: {}",
+                               names.empty() ? std::to_string(channel + 1) : names[channel], why);
     return {};
 }
 
@@ -111,7 +113,8 @@ std::string io::contradiction(const Measurement& m) {
         if (!sizes_fit(m, layer)) return in_layer("an array has the wrong size");
         if (!(layer.theta_i >= 0 && layer.theta_i < 0.5 * kPi && std::isfinite(layer.phi_i)))
             return in_layer("no incident direction");
-        if (const std::string why = imbalance(layer, m.shape()); !why.empty()) return in_layer(why);
+        if (const std::string why = imbalance(layer, m.shape(), m.channel_names); !why.empty())
+            return in_layer(why);
     }
     return {};
 }

@@ -3,6 +3,7 @@
 
 #include <asperity/gonio/measurement.h>
 
+#include <span>
 #include <string>
 
 namespace asperity {
@@ -11,8 +12,9 @@ namespace asperity {
 /// for every channel
 ///     rays * 2^32 = escaped + absorbed + truncated + edge
 ///     escaped = sum of `energy` = sum of `escaped_by_bounce`.
-/// The arrays must have the sizes of `shape`.
-std::string imbalance(const Layer& layer, const SumShape& shape);
+/// The arrays must have the sizes of `shape`; channels go by their `names`, or by number.
+std::string imbalance(const Layer& layer, const SumShape& shape,
+                      std::span<const std::string> names = {});
 /// Throws Error(Account) if there is a reason.
 void check_account(const Layer& layer, const SumShape& shape);
 

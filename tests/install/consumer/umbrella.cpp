@@ -2,6 +2,6 @@
 // All public headers at once: their names get along, and what they include is installed.
 #include <asperity/asperity.h>
 
-asperity::Mesh knot_of_models() {
+asperity::Model knot_of_models() {
     return {};
 }

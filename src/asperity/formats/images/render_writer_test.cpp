@@ -159,8 +159,7 @@ TEST(RenderWriter, SaysWhatIsWrong) {
     }
     EXPECT_EQ(folder.files(), 0);
     if (!test::has_full_device()) return;
-    expect_error(ErrorCode::InputOutput,
-                 "/dev/full: cannot write the EXR (No space left on device)",
+    expect_error(ErrorCode::InputOutput, "/dev/full: cannot write: No space left on device",
                  [&] { write_render_exr(film, {}, "/dev/full"); });
     expect_error(ErrorCode::InputOutput,
                  "/dev/full: ", [&] { write_render_png(film, {}, {}, "/dev/full"); });
