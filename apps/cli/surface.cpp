@@ -43,6 +43,8 @@ class SurfaceVerb {
         look_ = add_text(app, "--look", "NAME", "of the picture: shaded or normals", kOutput)
                     ->default_str("shaded");
         app.add_flag("--stats", stats_, "show the realised figures")->group(kOutput);
+        app.add_flag("--list", list_, "list the channels of the file and nothing else")
+            ->group(kOutput);
         app.add_flag("--json", json_, "print one JSON object and nothing else")->group(kOutput);
         app.add_flag("--quiet", quiet_, "print nothing but errors")->group(kOutput);
         set_help(app, "surface SPEC|FILE [options] [-o FILE] [--png FILE]", kClosing);
@@ -60,6 +62,7 @@ class SurfaceVerb {
         Run run(threads_.threads());
         const StopOnSignal stop(run);
         ProgressBar progress(run, quiet_);
+        if (list_) return list(settings, run, progress);
         const Heightfield surface = io::load_surface(settings, run);
         const SurfaceReport report(settings, surface, run.threads());
         if (run.stop_requested()) throw Error(ErrorCode::Stopped, "stopped, nothing is written");
@@ -73,6 +76,21 @@ class SurfaceVerb {
     }
 
   private:
+    int list(const SurfaceSettings& settings, Run& run, ProgressBar& progress) const {
+        if (settings.kind != kSurfaceFile)
+            throw Error(ErrorCode::Usage, "only files have channels to list", "list");
+        const auto channels = io::list_channels(settings, run);
+        progress.clear();
+        std::string text;
+        for (std::size_t k = 0; k < channels.size(); ++k) {
+            const io::HeightsChannel& c = channels[k];
+            text += fmt::format("{:>3}  {}  {} x {}{}\n", k + 1, c.name, c.nx, c.ny,
+                                c.other.empty() ? "" : ", no heights: " + c.other);
+        }
+        Talk(quiet_, false)(text);
+        return 0;
+    }
+
     io::SurfaceLook look() const {
         const std::string name = text_of(look_, "shaded");
         if (name == "shaded") return io::SurfaceLook::Shaded;
@@ -110,7 +128,7 @@ class SurfaceVerb {
     ExperimentOptions experiment_;
     ThreadsOption threads_;
     CLI::Option *spec_ = nullptr, *output_ = nullptr, *png_ = nullptr, *look_ = nullptr;
-    bool stats_ = false, json_ = false, quiet_ = false;
+    bool stats_ = false, json_ = false, quiet_ = false, list_ = false;
 };
 
 }  // namespace

@@ -48,6 +48,7 @@ std::string SurfaceReport::headline() const {
     std::string text = surface_line(settings_, statistics_, surface_.nx, surface_.ny) + "\n";
     const std::string tiling = tiling_line(settings_, surface_);
     if (!tiling.empty()) text += tiling + "\n";
+    if (!surface_.source.empty()) text += surface_.source + "\n";
     return text;
 }
 
@@ -95,6 +96,7 @@ Json SurfaceReport::json() const {
     json["diagonal"] = surface_.diagonal == Diagonal::Anti ? "anti" : "main";
     json["isotropic"] = surface_.isotropic;
     if (settings_.kind == kSurfaceFile) json["tiling"] = tiling_line(settings_, surface_);
+    if (!surface_.source.empty()) json["source"] = surface_.source;
     json["asked"] = Json::object();
     if (surface_uses(settings_.kind, "roughness")) json["asked"]["roughness"] = settings_.roughness;
     if (alpha_was_asked(settings_)) {

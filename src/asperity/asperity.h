@@ -27,6 +27,8 @@
 #include <asperity/formats/bsdfs/fidelity.h>
 #include <asperity/formats/bsdfs/format_options.h>
 #include <asperity/formats/bsdfs/layers_exr.h>
+#include <asperity/formats/heights/heights_format.h>
+#include <asperity/formats/heights/heights_source.h>
 #include <asperity/formats/heights/surface_files.h>
 #include <asperity/formats/images/image_format.h>
 #include <asperity/formats/images/image_reader.h>
@@ -85,3 +87,4 @@
 #include <asperity/surface/surface_params.h>
 #include <asperity/surface/surface_settings.h>
 #include <asperity/surface/surface_text.h>
+#include <asperity/surface/topography.h>

@@ -46,9 +46,13 @@ class HeightFiles(ProgramTest):
                 self.refused(f"folder.{ending}")
                 os.rmdir(f"folder.{ending}")
 
-    def test_unknown_ending(self):
+    def test_content_decides_before_the_ending(self):
         write("heights.xyz", b"1 2\n3 4\n")
-        self.fails(3, "surface", "heights.xyz", saying="heights.xyz")
+        self.assertEqual(self.json_of("surface", "heights.xyz")["ny"], 2)
+
+    def test_unknown_content(self):
+        write("heights.abc", b"\1\2\3\0 what is this?")
+        self.fails(3, "surface", "heights.abc", saying="heights.abc")
 
 
 class ResultFiles(ProgramTest):

@@ -53,8 +53,9 @@ class SillyNumbers(ProgramTest):
     def test_every_option_is_in_the_table(self):
         """A numeric option is one whose value help shows in capitals that stand for numbers."""
         names = {"--surface", "--autocorrelation", "--tiling", "--boundary", "--diagonal",
-                 "--fresnel", "--material", "--detector", "--launch", "--config", "--reference",
-                 "--output", "--along-y", "--isotropic", "--json", "--quiet", "--help"}
+                 "--format", "--channel", "--decimal", "--fresnel", "--material", "--detector",
+                 "--launch", "--config", "--reference", "--output", "--along-y", "--isotropic",
+                 "--json", "--quiet", "--help"}
         help_lines = self.passes("simulate", "--help").split("\nExamples")[0].splitlines()
         listed = {word.rstrip(",") for line in help_lines for word in line.split()[:2]
                   if line.startswith("  ") and word.startswith("--")}

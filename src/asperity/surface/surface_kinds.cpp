@@ -68,7 +68,9 @@ void add_surface_kind(SurfaceKind kind) {
 bool surface_uses(const std::string& kind, std::string_view setting) {
     for (const char* name : {"surface", "cell-size", "height-scale", "diagonal", "boundary"})
         if (setting == name) return true;
-    if (kind == kSurfaceFile) return setting == "tiling";
+    if (kind == kSurfaceFile)
+        return setting == "tiling" || setting == "format" || setting == "channel" ||
+               setting == "decimal";
     if (setting == "size") return true;
     const auto found = find_surface_kind(kind);
     return found && (contains(found->params, setting) || find(found->own, setting));

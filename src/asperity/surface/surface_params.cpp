@@ -65,11 +65,24 @@ Param<S> kind_row() {
     row.info = {.name = "surface",
                 .metavar = "SPEC|FILE",
                 .doc = kind_names(", ") +
-                       ", or a file of heights (.gsf .exr .png .txt); settings may follow: "
+                       ", or a file of heights, as instruments write them; settings may follow: "
                        "gaussian:alpha=0.3,size=256"};
     row.get = [](const S& s) { return surface_text(s); };
     row.set = [](S& s, const ParamValue& v) { apply_surface_spec(s, std::get<std::string>(v)); };
     return row;
+}
+
+/// A word that helps to read a file; none leaves it to the file.
+Param<S> file_row(std::string S::*member, ParamInfo info) {
+    info.absent = "auto";
+    info.written_where_used = true;
+    return {
+        std::move(info),
+        [member](const S& s) { return (s.*member).empty() ? ParamValue() : ParamValue(s.*member); },
+        [member](S& s, const ParamValue& v) {
+            const std::string* word = std::get_if<std::string>(&v);
+            s.*member = word ? *word : std::string();
+        }};
 }
 
 ParamTable<S> shared_rows() {
@@ -150,6 +163,19 @@ ParamTable<S> shared_rows() {
              .doc = "how a file fills the plane: periodic (it repeats as it is), mirror (made "
                     "periodic by mirroring), finite (a patch with edges) or auto (periodic if the "
                     "file says so or its opposite edges fit, else mirror)"}),
+        file_row(&S::file_format, {.name = "format",
+                                   .metavar = "NAME",
+                                   .doc = "the format, in place of what content and ending say",
+                                   .otherwise = "what content and ending say"}),
+        file_row(&S::file_channel, {.name = "channel",
+                                    .metavar = "NAME|N",
+                                    .doc = "of several channels the one to read, see --list",
+                                    .otherwise = "the only one"}),
+        file_row(&S::file_decimal,
+                 {.name = "decimal",
+                  .metavar = "NAME",
+                  .doc = "point or comma, where the numbers of a text can be read both ways",
+                  .otherwise = "as the numbers say"}),
         field(&S::boundary, kBoundaries,
               {.name = "boundary", .doc = "periodic, or finite (a patch with edges)"}),
         field(&S::diagonal, kDiagonals,

@@ -62,7 +62,8 @@ struct SurfaceSettings {
     double amplitude = 1;  ///< of sinusoid and eggcrate [cells]
     bool along_y = false;  ///< tilted, vgroove, sawtooth, sinusoid vary along y, not along x
     std::string file;      ///< kind kSurfaceFile
-    Tiling tiling = Tiling::Auto;          ///< kind kSurfaceFile
+    std::string file_format, file_channel, file_decimal;  ///< kind kSurfaceFile: HeightsOptions
+    Tiling tiling = Tiling::Auto;                         ///< kind kSurfaceFile
     std::optional<double> cell_x, cell_y;  ///< spacing; default 1 cell, or what the file says;
                                            ///< sides differ by 100 times at most
     double height_scale = 1;  ///< multiplies the heights after all else; negative turns them over

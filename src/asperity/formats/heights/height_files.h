@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One reader and one writer per format of heights; surface_files.h chooses among them.
+// Readers and writers of formats that hold floats and nothing else; builtin_heights.h has them all.
 //
 // Readers give the samples as they stand, Boundary::Finite unless the file says otherwise, and
 // compare every claimed size with the bytes present before they allocate. They throw
@@ -7,6 +7,7 @@
 // Error(InputOutput, path), and leave nothing behind when they fail.
 #pragma once
 
+#include <asperity/formats/heights/heights_source.h>
 #include <asperity/surface/heightfield.h>
 
 #include <string>
@@ -29,16 +30,11 @@ void write_exr_heights(const Heightfield& surface, const std::string& path);
 /// Grey PNG of 16 or 8 bits: heights value / 65535 or value / 255. Spacing 1 cell.
 Heightfield read_png_heights(const std::string& path);
 
-/// Numbers in rows, apart by white space, commas or semicolons; '#' starts a comment. A first line
-/// "AsciiMatrix W H" may announce W columns and H rows. Spacing 1 cell.
-Heightfield read_text_matrix(const std::string& path);
 /// Rows of the shortest decimals that read back to the same bits. Keeps the heights alone.
 void write_text_matrix(const Heightfield& surface, const std::string& path);
 
 /// A patch of nx x ny samples of spacing 1 cell named after the file, its heights still 0.
 /// Throws Error(InvalidInput, path) for sides below 2 or above kMaxSurfaceSide.
 Heightfield empty_patch(std::uint64_t nx, std::uint64_t ny, const std::string& path);
-/// The check of empty_patch alone.
-void check_sides(std::uint64_t nx, std::uint64_t ny, const std::string& path);
 
 }  // namespace asperity::io

@@ -4,11 +4,13 @@
 #include <asperity/surface/make_surface.h>
 #include <asperity/surface/tile_heights.h>
 
+#include <utility>
+
 namespace asperity::io {
 namespace {
 
 // One of the two given alone counts for both.
-void apply_cell_size(Heightfield& surface, const SurfaceSettings& settings) {
+void apply_cell_size(Topography& surface, const SurfaceSettings& settings) {
     if (settings.cell_x || settings.cell_y) {
         surface.dx = settings.cell_x ? *settings.cell_x : *settings.cell_y;
         surface.dy = settings.cell_y ? *settings.cell_y : *settings.cell_x;
@@ -36,10 +38,15 @@ void tile(Heightfield& surface, Tiling tiling) {
     }
 }
 
-Heightfield load_file(const SurfaceSettings& settings) {
+HeightsOptions options_of(const SurfaceSettings& settings) {
+    return {settings.file_format, settings.file_channel, settings.file_decimal};
+}
+
+Heightfield load_file(const SurfaceSettings& settings, Run& run) {
     if (settings.file.empty()) throw Error(ErrorCode::Usage, "the file name is empty", "surface");
-    Heightfield surface = read_heights(settings.file);
-    apply_cell_size(surface, settings);
+    Topography topography = read_topography(settings.file, options_of(settings), run);
+    apply_cell_size(topography, settings);
+    Heightfield surface = prepare(std::move(topography), settings.file);
     for (float& h : surface.heights)
         h = static_cast<float>(static_cast<double>(h) * settings.height_scale);
     if (settings.diagonal == Diagonal::Main) surface.diagonal = Diagonal::Main;
@@ -52,8 +59,12 @@ Heightfield load_file(const SurfaceSettings& settings) {
 
 }  // namespace
 
+std::vector<HeightsChannel> list_channels(const SurfaceSettings& settings, Run& run) {
+    return HeightsFormats().list(HeightsSource(settings.file, options_of(settings), run));
+}
+
 Heightfield load_surface(const SurfaceSettings& settings, Run& run) {
-    return settings.kind == kSurfaceFile ? load_file(settings) : make_surface(settings, run);
+    return settings.kind == kSurfaceFile ? load_file(settings, run) : make_surface(settings, run);
 }
 
 }  // namespace asperity::io

@@ -2,56 +2,12 @@
 #include <asperity/formats/heights/surface_files.h>
 
 #include <asperity/core/error.h>
-#include <asperity/core/parse_number.h>
 #include <asperity/formats/heights/height_files.h>
-#include <fmt/format.h>
+#include <asperity/formats/heights/heights_format.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <new>
 
 namespace asperity::io {
-namespace {
-
-using Reader = Heightfield (*)(const std::string&);
-using Writer = void (*)(const Heightfield&, const std::string&);
-
-struct Format {
-    const char* ending;
-    Reader read;
-    Writer write;  ///< nullptr: read only
-};
-
-constexpr Format kFormats[] = {
-    {".gsf", read_gsf, write_gsf},       {".exr", read_exr_heights, write_exr_heights},
-    {".png", read_png_heights, nullptr}, {".txt", read_text_matrix, write_text_matrix},
-    {".csv", read_text_matrix, nullptr}, {".asc", read_text_matrix, nullptr},
-    {".dat", read_text_matrix, nullptr},
-};
-
-std::string ending_of(const std::string& path) {
-    std::string ending = std::filesystem::path(path).extension().string();
-    for (char& c : ending)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return ending;
-}
-
-const Format* format_of(const std::string& path) {
-    const std::string ending = ending_of(path);
-    for (const Format& format : kFormats)
-        if (ending == format.ending) return &format;
-    return nullptr;
-}
-
-}  // namespace
-
-void check_sides(std::uint64_t nx, std::uint64_t ny, const std::string& path) {
-    constexpr std::uint64_t kMax = kMaxSurfaceSide;
-    if (nx < 2 || ny < 2 || nx > kMax || ny > kMax)
-        throw Error(ErrorCode::InvalidInput,
-                    fmt::format("{} x {} samples, 2 to {} on a side are allowed", nx, ny, kMax),
-                    path);
-}
 
 Heightfield empty_patch(std::uint64_t nx, std::uint64_t ny, const std::string& path) {
     check_sides(nx, ny, path);
@@ -64,32 +20,24 @@ Heightfield empty_patch(std::uint64_t nx, std::uint64_t ny, const std::string& p
     return surface;
 }
 
-Heightfield read_heights(const std::string& path) {
-    const Format* format = format_of(path);
-    if (format == nullptr)
-        throw Error(ErrorCode::InvalidInput,
-                    fmt::format("heights are read from .gsf, .exr, .png, .txt, .csv, .asc and "
-                                ".dat files, not {}",
-                                in_quotes(ending_of(path))),
-                    path);
+Topography read_topography(const std::string& path, const HeightsOptions& options, Run& run) {
     try {
-        Heightfield surface = format->read(path);
-        validate(surface, path);
-        return surface;
+        return HeightsFormats().read(HeightsSource(path, options, run));
     } catch (const std::bad_alloc&) {
         throw Error(ErrorCode::OutOfMemory, "too large for the memory there is", path);
     }
 }
 
+Heightfield read_heights(const std::string& path) {
+    Run run(1);
+    return prepare(read_topography(path, {}, run), path);
+}
+
 void write_heights(const Heightfield& surface, const std::string& path) {
-    const Format* format = format_of(path);
-    if (format == nullptr || format->write == nullptr)
-        throw Error(ErrorCode::Usage,
-                    fmt::format("heights are written to .gsf, .exr and .txt files, not {}",
-                                in_quotes(ending_of(path))),
-                    path);
+    const HeightsFormats formats;
+    const HeightsFormat& format = formats.for_writing(path);
     validate(surface, path);
-    format->write(surface, path);
+    format.write(surface, path);
 }
 
 }  // namespace asperity::io

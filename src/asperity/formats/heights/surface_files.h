@@ -2,10 +2,12 @@
 #pragma once
 
 #include <asperity/core/run.h>
+#include <asperity/formats/heights/heights_format.h>
 #include <asperity/surface/heightfield.h>
 #include <asperity/surface/surface_settings.h>
 
 #include <string>
+#include <vector>
 
 namespace asperity::io {
 
@@ -13,9 +15,15 @@ namespace asperity::io {
 /// Throws what make_surface throws, and Error(InputOutput | InvalidInput, "file:place").
 Heightfield load_surface(const SurfaceSettings& settings, Run& run);
 
-/// Reads heights as they stand in a file, by its ending: .gsf, .exr (one channel), .png (16-bit
-/// grey, value / 65535), .txt .csv .asc .dat (matrix). Nothing is scaled or mirrored. The result is
-/// marked Finite unless the file, a .gsf of ours, says otherwise.
+/// Reads a topography as its file has it, by its content, else its ending, else as `options` say;
+/// HeightsFormats has the table. Nothing is filled, scaled or mirrored.
+Topography read_topography(const std::string& path, const HeightsOptions& options, Run& run);
+
+/// The channels of the file that the settings name, in its order.
+std::vector<HeightsChannel> list_channels(const SurfaceSettings& settings, Run& run);
+
+/// The same as a surface to measure, see prepare(). It is Finite unless the file, a .gsf of ours,
+/// says otherwise.
 Heightfield read_heights(const std::string& path);
 
 /// Writes heights by the ending of `path`: .gsf, .exr, .txt. Written to a temporary name, synced,

@@ -181,7 +181,7 @@ TEST(Gsf, RefusesBadFields) {
            ":4: AsperityBoundary 'x' is neither periodic nor finite");
     const float nan = std::numeric_limits<float>::quiet_NaN();
     refuse("a.gsf", small_gsf().replace(48, 24, floats({nan, nan, nan, nan, nan, nan})),
-           ": height at row 0, column 0 is not a finite number");
+           ": 6 of 6 points are missing (100 %)");
 }
 
 TEST(Exr, RoundTripsHeightsExactly) {
@@ -231,14 +231,14 @@ TEST(TextMatrix, RefusesWithTheLine) {
     refuse("a.txt", "1 2 3", ": 3 x 1 samples, 2 to");
     refuse("a.txt", "1 2\n\n3\n", ":3: 1 numbers, the rows above have 2");
     refuse("a.txt", "1 2\n3 4 5\n", ":2: 3 numbers, the rows above have 2");
-    refuse("a.txt", "1 2\n3 nan\n", ":2: 'nan' is not a number");
+    refuse("a.txt", "1 2\n3 nan\n", ": 1 of 4 points are missing (25 %)");
     refuse("a.txt", "1 2\n3 inf\n", ":2: 'inf' is not a number");
     refuse("a.txt", "1 2\n3 1e39\n", ":2: '1e39' is too large");
     refuse("a.txt", "1 2\n3 4x\n", ":2: '4x' is not a number");
     refuse("a.txt", "1 2\n3 \x01\xff\n", ":2: '?\xff' is not a number");
     refuse("a.txt", "1,,2\n", ":1: a number is missing");
     refuse("a.txt", ",1,2\n", ":1: a number is missing");
-    refuse("a.txt", "1,5;2,5\n", ":1: commas and semicolons are mixed");
+    refuse("a.txt", "1,5;2,5\n1.5;2,5\n", ":2: '1.5' has a decimal point");
     refuse("a.txt", "AsciiMatrix 3\n1 2\n", ":1: AsciiMatrix needs a width and a height");
     refuse("a.txt", "AsciiMatrix -3 4294967295\n1 2\n", ":1: AsciiMatrix needs");
     refuse("a.txt", "AsciiMatrix 3 2\n1 2\n3 4\n", ": 3 x 2 numbers are announced, 2 x 2 found");
@@ -254,8 +254,9 @@ TEST(SurfaceFiles, RefuseFoldersMissingFilesAndUnknownEndings) {
         expect_error(ErrorCode::InputOutput, "none" + ending + ": cannot open: No such file",
                      [&] { read_heights(folder / ("none" + ending)); });
     }
-    expect_error(ErrorCode::InvalidInput, "a.xyz: heights are read from .gsf",
-                 [&] { read_heights(folder / "a.xyz"); });
+    put(folder / "a.unknown", "\1\2");
+    expect_error(ErrorCode::InvalidInput, "a.unknown: neither its first bytes nor its ending",
+                 [&] { read_heights(folder / "a.unknown"); });
     expect_error(ErrorCode::Usage, "a.png: heights are written to .gsf",
                  [&] { write_heights(random_surface(1), folder / "a.png"); });
     expect_error(ErrorCode::InputOutput, "none/a.exr: cannot create",

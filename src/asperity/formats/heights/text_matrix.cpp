@@ -1,134 +1,201 @@
 // SPDX-License-Identifier: Apache-2.0
+// Text: rows of numbers, with or without a header that says their scale, or points x y z.
 #include <asperity/core/error.h>
 #include <asperity/core/parse_number.h>
 #include <asperity/formats/atomic_file.h>
+#include <asperity/formats/heights/builtin_heights.h>
 #include <asperity/formats/heights/height_files.h>
-#include <asperity/formats/read_file.h>
+#include <asperity/formats/heights/point_grid.h>
+#include <asperity/formats/heights/text_scale.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 namespace asperity::io {
 namespace {
 
-constexpr std::uint64_t kMaxTextBytes = std::uint64_t{16} << 30;
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-constexpr std::string_view kBlank = " \t\r\v\f";
 constexpr std::string_view kAnnouncement = "AsciiMatrix";
 constexpr std::size_t kWriteBytes = 1 << 20;
+constexpr std::uint64_t kLongList = 32;  // rows of three numbers that nobody writes as a matrix
 
-class MatrixReader {
-  public:
-    MatrixReader(std::string_view text, const std::string& path) : text_(text), path_(path) {
-        if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
+// "AsciiMatrix W H"
+void check_announcement(const TextTable& table, const HeightsSource& source) {
+    if (table.header.empty() || table.header.front().comment) return;
+    const TextLine& line = table.header.front();
+    if (!line.text.starts_with(kAnnouncement)) return;
+    const std::string_view rest = trimmed(std::string_view(line.text).substr(kAnnouncement.size()));
+    const std::size_t gap = std::min(rest.find_first_of(" \t"), rest.size());
+    const auto width = parse_integer<std::uint64_t>(rest.substr(0, gap));
+    const auto height = parse_integer<std::uint64_t>(trimmed(rest.substr(gap)));
+    if (!width || !height)
+        source.refuse_line(line.number, "AsciiMatrix needs a width and a height");
+    if (*width != table.columns || *height != table.rows)
+        source.refuse(fmt::format("{} x {} numbers are announced, {} x {} found", *width, *height,
+                                  table.columns, table.rows));
+}
+
+bool is_announcement(const TextLine& line) {
+    return line.text.starts_with(kAnnouncement);
+}
+
+Topography plain_matrix(TextTable table, const HeightsSource& source) {
+    check_sides(table.columns, table.rows, source.path());
+    Topography t;
+    t.nx = static_cast<int>(table.columns);
+    t.ny = static_cast<int>(table.rows);
+    t.heights = std::move(table.numbers);
+    for (std::size_t k = 0; k < t.heights.size(); ++k) {
+        if (!std::isnan(t.heights[k])) continue;
+        t.heights[k] = 0;
+        t.mark_missing(k);
     }
+    if (table.decimal_comma) t.note("decimal commas");
+    return t;
+}
 
-    Heightfield read() {
-        while (!text_.empty()) {
-            const std::size_t end = std::min(text_.find('\n'), text_.size());
-            read_line(text_.substr(0, end));
-            text_.remove_prefix(std::min(end + 1, text_.size()));
-            ++line_;
+void check_size(const TextScale& scale, const Topography& t, const HeightsSource& source) {
+    const bool columns_differ = scale.columns && *scale.columns != t.nx;
+    const bool rows_differ = scale.rows && *scale.rows != t.ny;
+    if (columns_differ || rows_differ)
+        source.refuse(fmt::format("the header announces {} x {} numbers, {} x {} are found",
+                                  scale.columns.value_or(t.nx), scale.rows.value_or(t.ny), t.nx,
+                                  t.ny));
+}
+
+void apply_scale(Topography& t, const TextScale& scale, const HeightsSource& source) {
+    double dx = scale.dx.value_or(scale.width ? *scale.width / t.nx : 0);
+    double dy = scale.dy.value_or(scale.height ? *scale.height / t.ny : 0);
+    if (dx == 0) dx = dy;
+    if (dy == 0) dy = dx;
+    if (dx > 0 && !scale.z)
+        source.refuse(
+            fmt::format("the header gives a spacing of {}, but no unit of the heights, which may "
+                        "be in the same unit or in cells: --format matrix reads the numbers "
+                        "alone, --cell-size and --height-scale then decide",
+                        length_text(dx)));
+    if (scale.z) {
+        for (double& h : t.heights) h *= *scale.z;
+        if (dx > 0) {
+            set_spacing(t, dx, dy, scale.z_text + " from the header", source.path());
+        } else {
+            t.unit = "m";
+            t.dx = t.dy = 0;
+            t.note("heights in " + scale.z_text + " from the header");
         }
-        if (numbers_.empty()) throw Error(ErrorCode::InvalidInput, "no numbers", path_);
-        if (announced_ && announced_ != std::pair(columns_, rows_))
-            throw Error(ErrorCode::InvalidInput,
-                        fmt::format("{} x {} numbers are announced, {} x {} found",
-                                    announced_->first, announced_->second, columns_, rows_),
-                        path_);
-        check_sides(columns_, rows_, path_);
-        Heightfield surface;
-        surface.nx = static_cast<int>(columns_);
-        surface.ny = static_cast<int>(rows_);
-        surface.heights = std::move(numbers_);
-        surface.boundary = Boundary::Finite;
-        surface.name = path_;
-        return surface;
+        return;
     }
+    t.assume("no scale in the file: spacing 1 cell, heights in cells");
+}
 
-  private:
-    void read_line(std::string_view line) {
-        line = trimmed(line.substr(0, line.find('#')));
-        if (line.empty()) return;
-        if (rows_ == 0 && !announced_ && line.starts_with(kAnnouncement)) {
-            read_announcement(line.substr(kAnnouncement.size()));
-            return;
-        }
-        const std::size_t before = numbers_.size();
-        read_numbers(line);
-        const std::uint64_t count = numbers_.size() - before;
-        if (rows_ == 0) columns_ = count;
-        if (count != columns_)
-            fail(fmt::format("{} numbers, the rows above have {}", count, columns_));
-        if (++rows_ > static_cast<std::uint64_t>(kMaxSurfaceSide))
-            fail(fmt::format("more than {} rows", kMaxSurfaceSide));
+// The first lines of the header that say nothing which was understood.
+void note_unread(Topography& t, const std::vector<TextLine>& lines) {
+    std::size_t said = 0;
+    for (const TextLine& line : lines) {
+        if (line.comment && line.text.starts_with("heights:")) continue;
+        if (is_announcement(line) || ++said > 2) continue;
+        t.assume(fmt::format("header line {} is not used: {}", line.number, in_quotes(line.text)));
     }
+}
 
-    // "W H"
-    void read_announcement(std::string_view rest) {
-        rest = trimmed(rest);
-        const std::size_t gap = std::min(rest.find_first_of(kBlank), rest.size());
-        const auto width = parse_integer<std::uint64_t>(rest.substr(0, gap));
-        const auto height = parse_integer<std::uint64_t>(trimmed(rest.substr(gap)));
-        if (!width || !height) fail("AsciiMatrix needs a width and a height");
-        announced_ = std::pair(*width, *height);
+// The header lines that hold the names of columns or other words alone.
+void check_columns(const TextTable& table, const HeightsSource& source) {
+    const bool named = std::any_of(table.header.begin(), table.header.end(), [](const auto& line) {
+        return !line.comment && !is_announcement(line);
+    });
+    if (table.columns == 2 && named)
+        source.refuse("two columns with names are a profile, not a surface");
+}
+
+PointList points_of(const TextTable& table) {
+    PointList points;
+    for (std::size_t k = 0; k + 2 < table.numbers.size(); k += 3) {
+        points.x.push_back(table.numbers[k]);
+        points.y.push_back(table.numbers[k + 1]);
+        points.z.push_back(table.numbers[k + 2]);
     }
+    return points;
+}
 
-    void read_numbers(std::string_view line) {
-        // "1,5;2,5" may mean two numbers or four.
-        const bool semicolons = line.find(';') != std::string_view::npos;
-        if (semicolons && line.find(',') != std::string_view::npos)
-            fail("commas and semicolons are mixed: write decimals with a point");
-        const char separator = semicolons ? ';' : ',';
-        while (!line.empty()) {
-            if (line.front() == separator) fail("a number is missing between two separators");
-            const std::size_t end =
-                std::min(line.find_first_of(std::string(kBlank) + separator), line.size());
-            add_number(line.substr(0, end));
-            line = skip_blank(line.substr(end));
-            // One separator may also end the line.
-            if (line.starts_with(separator)) line = skip_blank(line.substr(1));
-        }
+Topography point_surface(const TextTable& table, const PointList& points, const PointGrid& grid,
+                         const HeightsSource& source) {
+    Topography t = on_grid(points, grid, source);
+    t.note(fmt::format("a list of {} points x y z on a grid of {} x {}", points.x.size(), grid.nx,
+                       grid.ny));
+    t.note(fmt::format("spacing {:.6g} x {:.6g}", grid.dx, grid.dy));
+    t.note("largest y on top");
+    if (table.decimal_comma) t.note("decimal commas");
+    t.assume("x, y and z are in one unit");
+    note_unread(t, table.header);
+    return t;
+}
+
+// Three columns may be a matrix three wide or a list.
+std::optional<PointGrid> as_list(const TextTable& table, const PointList& points,
+                                 const HeightsSource& source) {
+    const auto grid = grid_of(points);
+    if (grid || table.rows <= kLongList) return grid;
+    source.refuse(
+        fmt::format("{} rows of three numbers can be points x y z, which lie on no "
+                    "regular grid here, or a matrix three wide: --format matrix takes "
+                    "the latter",
+                    table.rows));
+}
+
+Topography read_text(const HeightsSource& source) {
+    TextTable table = read_text_table(source);
+    check_announcement(table, source);
+    check_columns(table, source);
+    if (table.columns == 3) {
+        const PointList points = points_of(table);
+        if (const auto grid = as_list(table, points, source))
+            return point_surface(table, points, *grid, source);
     }
+    const TextScale scale = read_text_scale(table.header);
+    const std::vector<TextLine> header = std::move(table.header);
+    Topography t = plain_matrix(std::move(table), source);
+    check_size(scale, t, source);
+    apply_scale(t, scale, source);
+    t.note("first row on top");
+    if (!scale.z)
+        note_unread(t, header);
+    else
+        note_unread(t, scale.not_understood);
+    return t;
+}
 
-    static std::string_view skip_blank(std::string_view line) {
-        return line.substr(std::min(line.find_first_not_of(kBlank), line.size()));
-    }
+Topography read_matrix(const HeightsSource& source) {
+    TextTable table = read_text_table(source);
+    check_announcement(table, source);
+    const bool header = !table.header.empty() && !is_announcement(table.header.front());
+    Topography t = plain_matrix(std::move(table), source);
+    t.note("first row on top");
+    t.assume(header ? "the numbers alone, whatever the header says: spacing 1 cell"
+                    : "no scale in the file: spacing 1 cell, heights in cells");
+    return t;
+}
 
-    void add_number(std::string_view text) {
-        const auto number = parse_double(text);
-        if (!number) fail(in_quotes(text) + " is not a number");
-        if (std::abs(*number) > static_cast<double>(std::numeric_limits<float>::max()))
-            fail(in_quotes(text) + " is too large");
-        numbers_.push_back(static_cast<float>(*number));
-        if (numbers_.size() > static_cast<std::size_t>(kMaxSurfaceSide) * kMaxSurfaceSide)
-            fail("too many numbers");
-    }
+Topography read_xyz(const HeightsSource& source) {
+    const TextTable table = read_text_table(source);
+    if (table.columns != 3)
+        source.refuse(fmt::format("points x y z need three columns, not {}", table.columns));
+    const PointList points = points_of(table);
+    const auto grid = grid_of(points);
+    if (!grid) source.refuse(fmt::format("the {} points x y z lie on no regular grid", table.rows));
+    return point_surface(table, points, *grid, source);
+}
 
-    [[noreturn]] void fail(const std::string& why) const {
-        throw Error(ErrorCode::InvalidInput, why, fmt::format("{}:{}", path_, line_));
-    }
-
-    std::string_view text_;
-    const std::string& path_;
-    int line_ = 1;
-    std::vector<float> numbers_;
-    std::uint64_t columns_ = 0, rows_ = 0;
-    std::optional<std::pair<std::uint64_t, std::uint64_t>> announced_;
-};
+template <Topography (*Read)(const HeightsSource&)>
+std::vector<HeightsChannel> open(const HeightsSource& source) {
+    const auto t = std::make_shared<Topography>(Read(source));
+    return {
+        {"heights", static_cast<std::uint64_t>(t->nx), static_cast<std::uint64_t>(t->ny), {}, [t] {
+             return *t;
+         }}};
+}
 
 }  // namespace
-
-Heightfield read_text_matrix(const std::string& path) {
-    const std::string text = read_text_file(path, kMaxTextBytes);
-    return MatrixReader(text, path).read();
-}
 
 void write_text_matrix(const Heightfield& surface, const std::string& path) {
     AtomicFile file(path);
@@ -144,6 +211,26 @@ void write_text_matrix(const Heightfield& surface, const std::string& path) {
     }
     file.write(text);
     file.commit();
+}
+
+HeightsFormat text_format() {
+    return {"text",
+            {"txt", "csv", "asc", "dat", "xyz"},
+            "rows of numbers, with a header that says the scale or none; points x y z on a grid",
+            nullptr,
+            open<read_text>,
+            write_text_matrix};
+}
+
+HeightsFormat matrix_format() {
+    return {"matrix",          {},     "rows of numbers whatever a header says", nullptr,
+            open<read_matrix>, nullptr};
+}
+
+HeightsFormat xyz_format() {
+    return {
+        "xyz",          {},     "points x y z on a regular grid, in any order, with gaps", nullptr,
+        open<read_xyz>, nullptr};
 }
 
 }  // namespace asperity::io

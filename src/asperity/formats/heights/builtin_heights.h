@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// One function per format of heights, each in its own file; builtin_heights.cpp is the table.
+#pragma once
+
+#include <asperity/formats/heights/heights_format.h>
+
+namespace asperity::io {
+
+HeightsFormat al3d_format();
+HeightsFormat esri_format();
+HeightsFormat exr_format();
+HeightsFormat gsf_format();
+HeightsFormat gwy_format();
+HeightsFormat matrix_format();
+HeightsFormat metropro_format();
+HeightsFormat npy_format();
+HeightsFormat opd_format();
+HeightsFormat plu_format();
+HeightsFormat plux_format();
+HeightsFormat png_format();
+HeightsFormat sdf_format();
+HeightsFormat spip_format();
+HeightsFormat sur_format();
+HeightsFormat text_format();
+HeightsFormat tiff_format();
+HeightsFormat tmd_format();
+HeightsFormat x3p_format();
+HeightsFormat xyz_format();
+
+/// The samples of a format that knows 32-bit floats; those that are not finite are missing.
+Topography as_topography(const Heightfield& surface);
+
+}  // namespace asperity::io
