@@ -105,7 +105,7 @@ def writes_past_the_door(root):
                 continue
             for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
                 if WRITES.search(line.split("//")[0]):
-                    complaints.append(f"{path}:{number}: files are written through io::AtomicFile")
+                    complaints.append(f"{path}:{number}: files are written through AtomicFile (formats/atomic_file.h)")
     return complaints
 
 
