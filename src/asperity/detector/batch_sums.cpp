@@ -4,6 +4,7 @@
 #include <asperity/core/energy.h>
 
 #include <array>
+#include <utility>
 
 namespace asperity {
 
@@ -17,6 +18,15 @@ std::size_t index(int a) {
 constexpr std::size_t kAhead = 48;
 
 }  // namespace
+
+SpreadLight::SpreadLight(const SumShape& shape, std::vector<std::uint32_t> at,
+                         std::vector<std::uint64_t> energies)
+    : places(std::move(at)), energy(std::move(energies)), reflected(shape.sides * shape.values()) {
+    const std::size_t values = shape.values();
+    for (std::size_t k = 0; k < places.size(); ++k)
+        for (std::size_t v = 0; v < values; ++v)
+            reflected[places[k] / shape.cells * values + v] += energy[k * values + v];
+}
 
 BatchSums::BatchSums(const SumShape& shape)
     : shape_(shape),
@@ -79,22 +89,17 @@ void BatchSums::escape_weighted(const Leaving& leaving, std::size_t first, std::
     }
 }
 
-void BatchSums::escape_spread(std::uint64_t count, std::span<const std::uint32_t> places,
-                              std::span<const std::uint64_t> energy) {
+void BatchSums::escape_spread(std::uint64_t count, std::shared_ptr<const SpreadLight> light) {
     if (count == 0) return;
-    const std::size_t values = shape_.values();
-    spread_.resize(shape_.places() * values);
+    spread_ += count;
     for (std::size_t c = 0; c < shape_.channels; ++c) absorbed_[c] += count * kRayEnergy;
-    for (std::size_t k = 0; k < places.size(); ++k) {
-        touched_[places[k] / kBlock] |= bit_of(0);
-        const std::size_t side = places[k] / shape_.cells;
-        for (std::size_t v = 0; v < values; ++v) {
-            const std::uint64_t sum = count * energy[k * values + v];
-            spread_[places[k] * values + v] += sum;
-            by_bounce(side, v, 0) += sum;
-            if (v % shape_.elements == 0) absorbed_[v / shape_.elements] -= sum;
-        }
+    for (std::size_t k = 0; k < light->reflected.size(); ++k) {
+        const std::size_t side = k / shape_.values(), v = k % shape_.values();
+        const std::uint64_t sum = count * light->reflected[k];
+        by_bounce(side, v, 0) += sum;
+        if (v % shape_.elements == 0) absorbed_[v / shape_.elements] -= sum;
     }
+    spread_light_ = std::move(light);
 }
 
 void BatchSums::truncate_launched(std::uint64_t count) {
@@ -127,11 +132,11 @@ void BatchSums::clear() {
     };
     forget(energy_, shape_.orders);
     forget(count_, shape_.orders);
-    forget(spread_, 1);
     std::fill(touched_.begin(), touched_.end(), std::uint8_t{0});
     for (auto* account : {&escaped_by_bounce_, &absorbed_, &truncated_, &edge_})
         std::fill(account->begin(), account->end(), std::uint64_t{0});
-    rays = segments = reflections = stuck = 0;
+    rays = segments = reflections = stuck = spread_ = 0;
+    spread_light_.reset();
 }
 
 }  // namespace asperity

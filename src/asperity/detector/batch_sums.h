@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,18 @@ struct SumShape {
     bool operator==(const SumShape&) const = default;
 };
 
+/// Where each ray of a kind sends its energy in the mean, for engines that know it.
+struct SpreadLight {
+    /// Energy[k * values + value] goes to places[k], in ascending order; what is missing to a whole
+    /// ray is absorbed.
+    SpreadLight(const SumShape& shape, std::vector<std::uint32_t> places,
+                std::vector<std::uint64_t> energy);
+
+    std::vector<std::uint32_t> places;
+    std::vector<std::uint64_t> energy;
+    std::vector<std::uint64_t> reflected;  ///< sum over the places: [side * values + value]
+};
+
 /// Where the energy of one batch of rays of one layer went, in integers (core/energy.h): what an
 /// engine fills, and the working memory of one thread. Sums of integers do not depend on the order
 /// of the calls, so batches come out the same whoever traces them.
@@ -45,11 +58,9 @@ class BatchSums {
     /// which of the weights is theirs.
     void escape(std::size_t side, int order, const std::int32_t* cells, const std::int32_t* paths,
                 std::size_t count, Weights weights);
-    /// `count` rays left after one reflection, each spread over these places as energy[k * values +
-    /// value] tells: for engines that know where light goes in the mean. What is missing to whole
-    /// rays was absorbed.
-    void escape_spread(std::uint64_t count, std::span<const std::uint32_t> places,
-                       std::span<const std::uint64_t> energy);
+    /// `count` rays left after one reflection, each spread as `light` says: the same of all batches
+    /// of a layer. They cost nothing by place until their layer is settled.
+    void escape_spread(std::uint64_t count, std::shared_ptr<const SpreadLight> light);
     /// `count` paths would have needed one reflection too many, or never ended.
     void truncate(const std::int32_t* paths, std::size_t count, Weights weights) {
         settle(truncated_, paths, count, weights);
@@ -98,7 +109,8 @@ class BatchSums {
     // places + place) * values + value], or numbers of those that have lost nothing
     std::vector<std::uint64_t> energy_;
     std::vector<std::uint32_t> count_;
-    std::vector<std::uint64_t> spread_;  ///< of escape_spread, beside these: order 0
+    std::uint64_t spread_ = 0;  ///< rays of escape_spread, which are not in these
+    std::shared_ptr<const SpreadLight> spread_light_;
     std::vector<std::uint8_t> touched_;  ///< by block: bits of the orders of which it holds energy
     std::vector<std::uint64_t> escaped_by_bounce_;  ///< [(side * values + value) * bounces + order]
     std::vector<std::uint64_t> absorbed_, truncated_, edge_;  ///< [channel]

@@ -15,6 +15,14 @@ namespace {
 
 __extension__ using SignedWide = __int128;
 
+/// Calls work(k, energy of a ray) for each place and value, k = place * values + value.
+template <class Work>
+void for_spread(const SpreadLight& light, std::size_t values, Work work) {
+    for (std::size_t p = 0; p < light.places.size(); ++p)
+        for (std::size_t v = 0; v < values; ++v)
+            work(light.places[p] * values + v, light.energy[p * values + v]);
+}
+
 template <class T>
 void add_to(std::vector<T>& sum, const std::vector<T>& more) {
     if (sum.empty()) sum.resize(more.size());
@@ -22,9 +30,13 @@ void add_to(std::vector<T>& sum, const std::vector<T>& more) {
 }
 
 /// Batches have at most 2^20 rays, so what they hold fits a signed number, too.
+LayerSums::Wide product(std::uint64_t a, std::uint64_t b) {
+    return static_cast<LayerSums::Wide>(SignedWide{static_cast<std::int64_t>(a)} *
+                                        static_cast<std::int64_t>(b));
+}
+
 LayerSums::Wide square(std::uint64_t energy) {
-    const auto value = static_cast<std::int64_t>(energy);
-    return static_cast<LayerSums::Wide>(SignedWide{value} * value);
+    return product(energy, energy);
 }
 
 void add_to(LayerSums::Spread& spread, std::uint64_t scaled) {
@@ -72,10 +84,16 @@ LayerSums& LayerSums::operator+=(const BatchSums& b) {
     add_to(edge, b.edge_);
     add_to(escaped_by_bounce, b.escaped_by_bounce_);
     add_spreads(b);
+    const auto add = [&]<std::uint64_t kUnit>(const auto& paths) {
+        if (b.rays == largest_batch)
+            add_places<kUnit>(b, paths);
+        else
+            add_scaled_places<kUnit>(b, paths);
+    };
     if (!b.energy_.empty())
-        add_places<1>(b, b.energy_);
+        add.operator()<1>(b.energy_);
     else
-        add_places<kRayEnergy>(b, b.count_);
+        add.operator()<kRayEnergy>(b.count_);
     return *this;
 }
 
@@ -91,8 +109,15 @@ void LayerSums::add_spreads(const BatchSums& b) {
 
 template <std::uint64_t kUnit, class Value>
 void LayerSums::add_places(const BatchSums& b, const std::vector<Value>& paths) {
-    const bool smaller = b.rays != largest_batch;
-    if (smaller && stretched.empty()) stretched.resize(squares.size());
+    Wide* products = nullptr;
+    if (b.spread_ > 0) {
+        waiting_.light = b.spread_light_;
+        waiting_.count += b.spread_;
+        waiting_.squares += Wide{b.spread_} * b.spread_;
+        waiting_.products.resize(squares.size());
+        products = waiting_.products.data();
+    }
+    if (paths.empty()) return;
     const std::size_t order = squares.size();
     std::vector<std::uint64_t> of_block(BatchSums::kBlock * shape.values());
     std::uint64_t* total = of_block.data();
@@ -100,32 +125,69 @@ void LayerSums::add_places(const BatchSums& b, const std::vector<Value>& paths) 
         // Orders by themselves, and all together
         const std::size_t count = end - begin;
         std::fill_n(total, count, std::uint64_t{0});
-        const auto add = [&](const auto* added, std::uint64_t unit, std::uint64_t* sums) {
+        for (std::size_t o = 0; o < shape.orders; ++o) {
+            if (!(bits & BatchSums::bit_of(o))) continue;
+            const Value* added = paths.data() + o * order + begin;
+            std::uint64_t* sums = energy.data() + o * order + begin;
             for (std::size_t k = 0; k < count; ++k) {
-                sums[k] += added[k] * unit;
-                total[k] += added[k] * unit;
+                sums[k] += added[k] * kUnit;
+                total[k] += added[k] * kUnit;
             }
-        };
-        for (std::size_t o = 0; o < shape.orders && !paths.empty(); ++o)
-            if (bits & BatchSums::bit_of(o))
-                add(paths.data() + o * order + begin, kUnit, energy.data() + o * order + begin);
-        if (!b.spread_.empty() && (bits & BatchSums::bit_of(0)))
-            add(b.spread_.data() + begin, 1, energy.data() + begin);
+        }
         // What their spread will be told from
-        if (smaller)
-            for (std::size_t k = 0; k < count; ++k) {
-                const std::uint64_t stretch = scaled(total[k], b.rays);
-                stretched[begin + k] += stretch - total[k];
-                total[k] = stretch;
-            }
-        for (std::size_t k = 0; k < count; ++k)
-            if (total[k] != 0) squares[begin + k] += square(total[k]);
+        for (std::size_t k = 0; k < count; ++k) {
+            if (total[k] == 0) continue;
+            squares[begin + k] += square(total[k]);
+            if (products) products[begin + k] += product(total[k], b.spread_);
+        }
     });
+}
+
+template <std::uint64_t kUnit, class Value>
+void LayerSums::add_scaled_places(const BatchSums& b, const std::vector<Value>& paths) {
+    const std::size_t order = squares.size();
+    if (stretched.empty()) stretched.resize(order);
+    std::vector<std::uint64_t> total(order);
+    const auto add = [&](std::size_t o, std::size_t k, std::uint64_t added) {
+        energy[o * order + k] += added;
+        total[k] += added;
+    };
+    if (!paths.empty())
+        b.for_touched([&](std::size_t begin, std::size_t end, std::uint8_t bits) {
+            for (std::size_t o = 0; o < shape.orders; ++o)
+                if (bits & BatchSums::bit_of(o))
+                    for (std::size_t k = begin; k < end; ++k)
+                        add(o, k, paths[o * order + k] * kUnit);
+        });
+    if (b.spread_ > 0)
+        for_spread(*b.spread_light_, shape.values(),
+                   [&](std::size_t k, std::uint64_t each) { add(0, k, b.spread_ * each); });
+    for (std::size_t k = 0; k < order; ++k) {
+        if (total[k] == 0) continue;
+        const std::uint64_t stretch = scaled(total[k], b.rays);
+        stretched[k] += stretch - total[k];
+        squares[k] += square(stretch);
+    }
+}
+
+void LayerSums::settle() {
+    if (settled()) return;
+    for_spread(*waiting_.light, shape.values(), [&](std::size_t k, std::uint64_t each) {
+        energy[k] += waiting_.count * each;
+        squares[k] += 2 * each * waiting_.products[k] + square(each) * waiting_.squares;
+    });
+    waiting_ = {};
 }
 
 LayerSums& LayerSums::operator+=(const LayerSums& other) {
     if (shape != other.shape || largest_batch != other.largest_batch)
         throw Error(ErrorCode::Usage, "sums of different layers cannot be added");
+    if (!other.settled()) {
+        LayerSums whole = other;
+        whole.settle();
+        return *this += whole;
+    }
+    settle();
     batches += other.batches;
     rays += other.rays;
     segments += other.segments;

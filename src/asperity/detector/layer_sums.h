@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace asperity {
@@ -45,9 +46,17 @@ struct LayerSums {
     std::vector<Spread> albedo;   ///< of the sum over its orders: [side * values + value]
 
     LayerSums& operator+=(const BatchSums& batch);
-    /// Throws Error(Usage) if the shapes or the largest batches differ: they are not of one layer.
+    /// Settles both. Throws Error(Usage) if the shapes or the largest batches differ: they are not
+    /// of one layer.
     LayerSums& operator+=(const LayerSums& other);
+    /// Of settled sums.
     bool operator==(const LayerSums&) const = default;
+
+    /// Adds what batches spread (BatchSums::escape_spread), which waits until someone asks: so a
+    /// batch costs only the places that its paths reached. Whenever it is called, the bits are the
+    /// same. Until then `energy`, `squares` and what is told from them lack it.
+    void settle();
+    bool settled() const { return waiting_.count == 0; }
 
     /// Mean over the batches as a fraction of the launched energy, and its standard error; infinite
     /// for a single batch.
@@ -56,10 +65,10 @@ struct LayerSums {
         double relative() const { return mean > 0 ? error / mean : 0.0; }
     };
     Estimate estimate(const Spread& spread) const;
-    /// Of place k / values, value k % values, over all orders.
+    /// Of place k / values, value k % values, over all orders. Of settled sums.
     Estimate cell(std::size_t k) const;
     /// Relative standard errors of energies: the worst channel's albedo; and the largest one among
-    /// the cells that, strongest first, carry 90 % of it.
+    /// the cells that, strongest first, carry 90 % of it. Of settled sums.
     struct Errors {
         double albedo = 0, cells = 0;
     };
@@ -72,6 +81,21 @@ struct LayerSums {
     /// Adds the batch's sums by place; `paths` in units of so much energy.
     template <std::uint64_t kUnit, class Value>
     void add_places(const BatchSums& batch, const std::vector<Value>& paths);
+    /// The same for a batch with fewer rays than the largest one, and what it spreads at once, as
+    /// both are scaled together.
+    template <std::uint64_t kUnit, class Value>
+    void add_scaled_places(const BatchSums& batch, const std::vector<Value>& paths);
+
+    /// n rays spread f each into a place where e came by paths, and over batches the sum of
+    /// (e + f n)^2 = e^2 + 2 f e n + f^2 n^2, all exact.
+    struct Waiting {
+        std::shared_ptr<const SpreadLight> light;
+        std::uint64_t count = 0;     ///< sum of n
+        Wide squares = 0;            ///< sum of n^2
+        std::vector<Wide> products;  ///< sum of e n, like LayerSums::squares
+        bool operator==(const Waiting&) const = default;
+    };
+    Waiting waiting_;
 };
 
 }  // namespace asperity

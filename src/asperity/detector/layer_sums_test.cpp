@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <vector>
 
@@ -85,22 +86,59 @@ TEST(LayerSums, ErrorsAreThoseOfTheMeanOverBatches) {
     EXPECT_EQ(sums.edge[0], (54 + 44 + 34 + 24) * kRayEnergy);
 }
 
+/// A batch of `rays` with one path into each of two places, and the others spread over two.
+BatchSums spread_batch(const SumShape& shape, std::uint64_t rays) {
+    BatchSums b(shape);
+    static const auto light = std::make_shared<const SpreadLight>(
+        shape, std::vector<std::uint32_t>{3, 17},
+        std::vector<std::uint64_t>{kRayEnergy / 4, kRayEnergy / 2});
+    b.escape_spread(rays - 2, light);
+    const std::vector<std::int32_t> cells{3, 5}, paths{0, 1};
+    b.escape(0, 2, cells.data(), paths.data(), 2, {});
+    b.rays = rays;
+    return b;
+}
+
 TEST(LayerSums, SpreadLightAndSingleRaysAreOneSum) {
     const SumShape shape{.cells = 20, .orders = 2, .bounces = 2};
-    BatchSums b(shape);
-    const std::vector<std::uint32_t> places{3, 17};
-    const std::vector<std::uint64_t> energy{kRayEnergy / 4, kRayEnergy / 2};
-    b.escape_spread(8, places, energy);
-    const std::vector<std::int32_t> cells{3}, paths{0};
-    b.escape(0, 2, cells.data(), paths.data(), 1, {});
-    b.rays = 9;
-    LayerSums sums(shape, 9);
-    sums += b;
+    LayerSums sums(shape, 10);
+    sums += spread_batch(shape, 10);
+    EXPECT_FALSE(sums.settled());
+    sums.settle();
     EXPECT_EQ(sums.energy[3], 2 * kRayEnergy);
     EXPECT_EQ(sums.energy[17], 4 * kRayEnergy);
     EXPECT_EQ(sums.energy[20 + 3], kRayEnergy);
+    EXPECT_EQ(sums.energy[20 + 5], kRayEnergy);
     EXPECT_EQ(sums.absorbed[0], 2 * kRayEnergy);
-    EXPECT_NEAR(sums.estimate({3 * kRayEnergy, 0}).mean, 3.0 / 9, 1e-15);
+    EXPECT_EQ(sums.escaped_by_bounce, (std::vector{6 * kRayEnergy, 2 * kRayEnergy}));
+    const auto squared = [](std::uint64_t rays) {
+        return LayerSums::Wide{rays * kRayEnergy} * (rays * kRayEnergy);
+    };
+    EXPECT_TRUE(sums.squares[3] == squared(3));
+    EXPECT_TRUE(sums.squares[17] == squared(4));
+    EXPECT_TRUE(sums.squares[5] == squared(1));
+    EXPECT_NEAR(sums.estimate({3 * kRayEnergy, 0}).mean, 3.0 / 10, 1e-15);
+}
+
+TEST(LayerSums, TellTheSameWheneverTheyAreSettled) {
+    // Batches of the full size wait, smaller ones do not
+    const SumShape shape{.cells = 20, .orders = 2, .bounces = 2};
+    LayerSums at_once(shape, 10), at_the_end(shape, 10), other(shape, 10);
+    const std::vector<std::uint64_t> rays{10, 9, 10, 7, 10};
+    for (const std::uint64_t n : rays) {
+        at_once += spread_batch(shape, n);
+        at_once.settle();
+        at_the_end += spread_batch(shape, n);
+    }
+    at_the_end.settle();
+    EXPECT_TRUE(at_once == at_the_end);
+    // And added to others that wait, too
+    LayerSums apart(shape, 10);
+    for (std::size_t k = rays.size(); k-- > 0;)
+        (k % 2 ? apart : other) += spread_batch(shape, rays[k]);
+    apart += other;
+    EXPECT_TRUE(at_once == apart);
+    EXPECT_EQ(at_once.cell(17).error, apart.cell(17).error);
 }
 
 TEST(LayerSums, ElementsOfPolarisedLightAreSigned) {

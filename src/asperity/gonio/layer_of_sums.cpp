@@ -34,6 +34,11 @@ void for_energies(const SumShape& shape, Work work) {
 }  // namespace
 
 Layer layer_of(const Incidence& light, const LayerSums& sums) {
+    if (!sums.settled()) {
+        LayerSums whole = sums;
+        whole.settle();
+        return layer_of(light, whole);
+    }
     const SumShape& shape = sums.shape;
     Layer layer;
     layer.number = light.number;

@@ -41,8 +41,9 @@ struct LayerInWork {
     std::vector<std::string> notes;       ///< for the reader of the result
 
     /// What the sums hold; false if that is too little to tell errors.
-    bool write(Layer& layer) const {
+    bool write(Layer& layer) {
         if (!sums || sums->batches < 2) return false;
+        sums->settle();
         layer = layer_of(light, *sums);
         return true;
     }
@@ -194,6 +195,7 @@ class Gonioreflectometer {
     /// All batches so far are done: refines the layer until its errors are small enough.
     void extend_or_close(std::size_t k) {
         LayerInWork& layer = layers_[k];
+        layer.sums->settle();
         if (const std::uint64_t more = batches_to_add(layer)) {
             run_.set_total(rays_ahead_ += more * plan_.largest());
             schedule_.extend(k, more);

@@ -138,7 +138,7 @@ std::uint64_t Follower::launch_rows(const Scene& scene, const LaunchBatch& batch
 /// Follows the rays that still wait, and spreads the light of those that were only counted.
 void Follower::finish(const Scene& scene, BatchSums& sums) {
     follow_launched(scene, sums);
-    if (counted_ > 0) scene.known->light().spread(counted_, sums);
+    if (counted_ > 0) sums.escape_spread(counted_, scene.known->light());
     sums.reflections += counted_;
     sums.segments += counted_;
 }

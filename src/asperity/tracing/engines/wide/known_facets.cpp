@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace asperity {
 
@@ -27,26 +28,30 @@ std::uint64_t cells_of(const WideTracer& tracer) {
            static_cast<std::uint64_t>(tracer.cells_y());
 }
 
-}  // namespace
-
-CountedLight::CountedLight(const std::vector<std::uint64_t>& sums, std::size_t channels,
-                           std::uint64_t total)
-    : channels_(channels) {
+/// From how much goes into each cell, [cell * channels + channel], of `total` in each channel.
+SpreadLight spread_of(const std::vector<std::uint64_t>& sums, std::size_t channels,
+                      std::uint64_t total) {
+    const std::size_t cells = sums.size() / channels;
+    std::vector<std::uint32_t> places;
+    std::vector<std::uint64_t> energy;
     // The sums so far are rounded, not each by itself, so that nothing is lost
     std::vector<std::uint64_t> so_far(channels), given(channels);
-    for (std::size_t cell = 0; cell < sums.size() / channels; ++cell) {
+    for (std::size_t cell = 0; cell < cells; ++cell) {
         const std::uint64_t* sum = &sums[cell * channels];
         if (std::all_of(sum, sum + channels, [](std::uint64_t x) { return x == 0; })) continue;
-        cells_.push_back(static_cast<std::uint32_t>(cell));
+        places.push_back(static_cast<std::uint32_t>(cell));
         for (std::size_t c = 0; c < channels; ++c) {
             so_far[c] += sum[c];
             const double share = static_cast<double>(so_far[c]) / static_cast<double>(total);
             const std::uint64_t rounded = to_energy(share);
-            energy_.push_back(rounded - given[c]);
+            energy.push_back(rounded - given[c]);
             given[c] = rounded;
         }
     }
+    return {{.cells = cells, .channels = channels}, std::move(places), std::move(energy)};
 }
+
+}  // namespace
 
 bool KnownFacets::pay(const WideTracer& tracer, std::uint64_t rays) {
     const std::uint64_t cells = cells_of(tracer);
@@ -188,7 +193,7 @@ void KnownFacets::look_at_all(const Look& look, const Run& run, int threads) {
         totals[0] += totals[part];
         for (std::size_t k = 0; k < sums[part].size(); ++k) sums[0][k] += sums[part][k];
     }
-    light_ = CountedLight(sums[0], look.channels(), totals[0]);
+    light_ = std::make_shared<const SpreadLight>(spread_of(sums[0], look.channels(), totals[0]));
 }
 
 /// Writes some rows of `width` cells from row `j` on.

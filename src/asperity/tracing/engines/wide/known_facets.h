@@ -5,33 +5,10 @@
 #include <asperity/tracing/engines/wide/follow.h>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace asperity {
-
-/// Where the energy of rays goes that are only counted: the same for each.
-class CountedLight {
-  public:
-    CountedLight() = default;
-    /// From how much goes into each cell, [cell * channels + channel], of `total` in each channel.
-    CountedLight(const std::vector<std::uint64_t>& sums, std::size_t channels, std::uint64_t total);
-
-    /// Cells that take a share, in order.
-    const std::vector<std::uint32_t>& cells() const { return cells_; }
-    /// Energy of a ray that goes into cells()[k].
-    std::uint64_t energy(std::size_t k, std::size_t channel) const {
-        return energy_[k * channels_ + channel];
-    }
-    /// Adds what `count` rays send there.
-    void spread(std::uint64_t count, BatchSums& sums) const {
-        sums.escape_spread(count, cells_, energy_);
-    }
-
-  private:
-    std::size_t channels_ = 1;
-    std::vector<std::uint32_t> cells_;
-    std::vector<std::uint64_t> energy_;  ///< [k * channels + channel]
-};
 
 /// Facets that lie in the light of a layer as a whole and mirror it out, wherever on them it falls.
 ///
@@ -52,8 +29,8 @@ class KnownFacets {
     static bool pay(const WideTracer& tracer, std::uint64_t rays);
 
     CountedFacets counted() const { return {cells_.empty() ? nullptr : cells_.data(), pitch_}; }
-    /// Where the rays onto them go.
-    const CountedLight& light() const { return light_; }
+    /// Where the rays onto them go; null when none is known.
+    const std::shared_ptr<const SpreadLight>& light() const { return light_; }
 
   private:
     /// Looks at parallel light on the facets, a row at a time.
@@ -65,7 +42,7 @@ class KnownFacets {
     std::vector<std::uint8_t> cells_;  ///< as in CountedFacets
     std::int32_t pitch_ = 0;
     bool swapped_ = false;  ///< x and y have changed places
-    CountedLight light_;
+    std::shared_ptr<const SpreadLight> light_;
 };
 
 }  // namespace asperity

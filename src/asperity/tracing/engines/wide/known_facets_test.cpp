@@ -48,6 +48,7 @@ class KnownFacetsOf : public testing::TestWithParam<Case> {
         follower.follow(scene(known), {LaunchPattern::LowDiscrepancy, rays, 1, 0, 0}, batch, run);
         LayerSums all(shape, rays);
         all += batch;
+        all.settle();
         return all;
     }
     KnownFacets known(int threads) { return {scene(nullptr), asperity::Run(threads), threads}; }
@@ -148,10 +149,8 @@ TEST_P(KnownFacetsOf, SendTheirLightWhereTheirRaysGo) {
 
 TEST_P(KnownFacetsOf, DoNotDependOnTheThreads) {
     const KnownFacets one = known(1), three = known(3);
-    EXPECT_EQ(one.light().cells(), three.light().cells());
-    for (std::size_t k = 0; k < one.light().cells().size(); ++k)
-        for (std::size_t c = 0; c < static_cast<std::size_t>(channels()); ++c)
-            ASSERT_EQ(one.light().energy(k, c), three.light().energy(k, c));
+    EXPECT_EQ(one.light()->places, three.light()->places);
+    EXPECT_EQ(one.light()->energy, three.light()->energy);
     const CountedFacets a = one.counted(), b = three.counted();
     for (int k = 0; k < a.pitch * surface().cells_y(); ++k) ASSERT_EQ(a.cells[k], b.cells[k]);
 }
@@ -188,8 +187,8 @@ TEST(KnownFacets, OfAMirrorAreAllKnown) {
     const KnownFacets known =
         known_on(surface, tracer, detector, Incidence{1, radians(30), radians(40), false});
     const int mirror = detector.cell_of(from_spherical(radians(30), radians(220)));
-    ASSERT_EQ(known.light().cells(), std::vector{static_cast<std::uint32_t>(mirror)});
-    EXPECT_EQ(known.light().energy(0, 0), kRayEnergy);
+    ASSERT_EQ(known.light()->places, std::vector{static_cast<std::uint32_t>(mirror)});
+    EXPECT_EQ(known.light()->energy[0], kRayEnergy);
     for (int j = 0; j < 64; ++j)
         for (int i = 0; i < 64; ++i)
             ASSERT_EQ(known.counted().cells[j * known.counted().pitch + i],
@@ -213,16 +212,16 @@ TEST(KnownFacets, OfAGrooveShareTheLightByTheirProjectedAreas) {
     const int towards = detector.cell_of(from_spherical(theta - 2 * tilt, kPi)),
               away = detector.cell_of(from_spherical(theta + 2 * tilt, kPi));
     const auto share = [&](int cell) {
-        const auto& cells = known.light().cells();
+        const auto& cells = known.light()->places;
         for (std::size_t k = 0; k < cells.size(); ++k)
             if (cells[k] == static_cast<std::uint32_t>(cell))
-                return std::ldexp(static_cast<double>(known.light().energy(k, 0)), -32);
+                return std::ldexp(static_cast<double>(known.light()->energy[k]), -32);
         return 0.0;
     };
-    EXPECT_EQ(known.light().cells().size(), 2u);
+    EXPECT_EQ(known.light()->places.size(), 2u);
     EXPECT_NEAR(share(towards), (1 + lean) / 2, 1e-6);
     EXPECT_NEAR(share(away), (1 - lean) / 2, 1e-6);
-    EXPECT_EQ(known.light().energy(0, 0) + known.light().energy(1, 0), kRayEnergy);
+    EXPECT_EQ(known.light()->energy[0] + known.light()->energy[1], kRayEnergy);
 }
 
 TEST(KnownFacets, AreLookedForOnlyWhereThatPays) {
