@@ -75,10 +75,12 @@ class KnownFacets::Look {
         reflectance_.assign(
             scene.fresnel.perfect() ? 0 : static_cast<std::size_t>(scene.fresnel.channels()),
             std::vector<float>(count));
-        // What a facet takes fits 31 bits, however steep it is
+        // As fine as single precision: what a level facet takes and mirrors out must not be rounded
+        // down to less, however much a steep one may take. All of them together take no more than
+        // falls onto the tile, which fits; so does one
         const double level = std::hypot(direction_.x, direction_.y);
         const double most = 1 + double{scene.tracer.grid().steepest} * level / -direction_.z;
-        unit_ = static_cast<float>(std::exp2(std::min(24.0, std::floor(30 - std::log2(most)))));
+        unit_ = static_cast<float>(std::exp2(std::min(24.0, std::floor(62 - std::log2(most)))));
     }
 
     int cells_x() const { return scene_.tracer.cells_x(); }
@@ -116,14 +118,15 @@ class KnownFacets::Look {
             for (std::size_t c = 0; c < reflectance_.size(); ++c)
                 for (std::size_t i = 0; i < count; ++i)
                     sums[static_cast<std::size_t>(cells[i]) * channels() + c] +=
-                        static_cast<std::uint64_t>(static_cast<float>(facets.flux[i]) *
+                        static_cast<std::uint64_t>(facets.flux[i] *
                                                    std::min(reflectance_[c][i], 1.0f));
         }
     }
 
   private:
     struct Facets {
-        std::vector<std::int32_t> cells, flux;
+        std::vector<std::int32_t> cells;
+        std::vector<float> flux;
         std::vector<float> cosine;  ///< none for perfect mirrors
         FacetRow row() {
             return {cells.data(), flux.data(), cosine.empty() ? nullptr : cosine.data()};

@@ -155,12 +155,12 @@ class FacetLook {
             hn::Or(hn::And(on_top, hn::Ge(out.z, zero)),
                    hn::Gt(out.z, hn::Mul(slope(cell, sector_of(out.x, out.y)), out.level)));
         const Mask in_light = hn::And(hn::Lt(out.d_m, zero), hn::Or(on_top, cell_lit));
-        const Ints flux =
-            only(hn::And(free, in_light), hn::ConvertTo(kInt, hn::Mul(out.d_m, unit_per_z_)));
+        const Floats flux =
+            hn::IfThenElseZero(hn::And(free, in_light), hn::Floor(hn::Mul(out.d_m, unit_per_z_)));
         hn::StoreU(find_(hn::Mul(mirror_x_, out.x), out.y, out.z), kInt, row.cells + k);
-        hn::StoreU(flux, kInt, row.flux + k);
+        hn::StoreU(flux, kFloat, row.flux + k);
         if (row.cosine) hn::StoreU(out.cosine(), kFloat, row.cosine + k);
-        return hn::RebindMask(kFloat, hn::Gt(flux, hn::Zero(kInt)));
+        return hn::Gt(flux, zero);
     }
 
   private:

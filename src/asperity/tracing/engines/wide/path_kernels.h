@@ -29,8 +29,8 @@ struct FacetRow {
     static constexpr std::size_t kSlack = 16;
     std::int32_t* cells;  ///< of the detector: where the facet sends it
     /// Of a facet that lies in the light as a whole and mirrors it out for certain: what it takes,
-    /// in units of 1 / unit of what falls onto half a cell. Of others: 0.
-    std::int32_t* flux;
+    /// a whole number of units of 1 / unit of what falls onto half a cell. Of others: 0.
+    float* flux;
     float* cosine;  ///< as of reflect_paths; null: not asked for
 };
 /// Looks at both facets of the cells of row `j` in parallel light along `d`, in the frame of the
