@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "checks.h"
 
+#include "expect.h"
 #include "run_check.h"
 
 #include <asperity/core/energy.h>
@@ -18,19 +19,6 @@
 namespace asperity::checks {
 
 namespace {
-
-/// "" when a and b agree within `tolerance`.
-std::string expect_near(const char* what, double value, double wanted, double tolerance) {
-    if (std::abs(value - wanted) <= tolerance) return {};
-    return fmt::format("{} is {:.9g}, not {:.9g}", what, value, wanted);
-}
-
-std::string first_of(std::initializer_list<std::string> failures) {
-    for (const std::string& failure : failures) {
-        if (!failure.empty()) return failure;
-    }
-    return {};
-}
 
 /// launched = escaped + absorbed + truncated + edge, exactly, on every channel; and the cells hold
 /// what escaped.

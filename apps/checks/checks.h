@@ -35,4 +35,11 @@ void check_surfaces(Run& run, const CheckReport& report);
 /// Light on exact shapes, the balance of energy, and equal results for any number of threads.
 void check_light(Run& run, const CheckReport& report);
 
+/// Directions, shares and metals on shapes whose reflection is known by hand, on all engines and
+/// launch patterns; published reflectances.
+void check_reflection(Run& run, const CheckReport& report);
+
+/// Error bars, lobes of rough surfaces, analytic models, and tables between their layers.
+void check_statistics(Run& run, const CheckReport& report);
+
 }  // namespace asperity::checks

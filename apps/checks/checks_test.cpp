@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "expect.h"
 #include "run_check.h"
 
 #include <asperity/core/error.h>
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 #include <vector>
 
@@ -19,6 +21,28 @@ TEST(Checks, ThesisChecksPassOneByOne) {
         EXPECT_TRUE(names.insert(name).second) << name << " came twice";
     });
     EXPECT_EQ(names.size(), std::size_t{kThesisChecks});
+}
+
+TEST(Checks, PhysicsChecksPass) {
+    asperity::Run run(2);
+    int done = 0;
+    const CheckReport report = [&](const std::string& name, const std::string& failure) {
+        EXPECT_EQ(failure, "") << name;
+        ++done;
+    };
+    check_surfaces(run, report);
+    check_light(run, report);
+    check_reflection(run, report);
+    check_statistics(run, report);
+    EXPECT_EQ(done, 40);
+}
+
+TEST(Checks, ExpectationsRefuseWhatIsNoNumber) {
+    EXPECT_EQ(expect_near("it", 1.5, 1, 0.5), "");
+    EXPECT_EQ(expect_near("it", 1.75, 1, 0.5), "it is 1.75, not 1");
+    EXPECT_EQ(expect_near("it", std::nan(""), 1, 0.5), "it is nan, not 1");
+    EXPECT_EQ(first_of({"", "b", "c"}), "b");
+    EXPECT_EQ(first_of({"", ""}), "");
 }
 
 TEST(Checks, AStopEndsThemWithoutABadWord) {

@@ -19,7 +19,9 @@ namespace {
 constexpr const char* kClosing =
     "Prints a line per check and the totals; the exit code is 1 when one failed. The thesis' Run\n"
     "Test comes first, with a total of its own: 75 texture checks (15 layers at 5 resolutions, on\n"
-    "real textures) and 4 of loading a small and a large model. Surfaces and light follow.\n"
+    "real textures) and 4 of loading a small and a large model. Then physics: surfaces and lobes "
+    "known\n"
+    "by hand, metals, reciprocity, error bars, tables between their layers. Some seconds in all.\n"
     "\n"
     "Examples\n"
     "  asperity selftest\n"
@@ -49,6 +51,8 @@ class SelftestVerb {
         write_out(fmt::format("{} of {} passed: the thesis' Run Test\n", passed, done));
         checks::check_surfaces(run, report);
         checks::check_light(run, report);
+        checks::check_reflection(run, report);
+        checks::check_statistics(run, report);
         write_out(fmt::format("{} of {} passed\n", passed, done));
         return passed == done ? 0 : 1;
     }
