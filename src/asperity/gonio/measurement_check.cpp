@@ -3,6 +3,7 @@
 
 #include <asperity/core/energy.h>
 #include <asperity/core/error.h>
+#include <asperity/gonio/measurement_ranges.h>
 #include <asperity/optics/fresnel.h>
 #include <fmt/format.h>
 
@@ -116,7 +117,7 @@ std::string io::contradiction(const Measurement& m) {
         if (const std::string why = imbalance(layer, m.shape(), m.channel_names); !why.empty())
             return in_layer(why);
     }
-    return {};
+    return out_of_range(m);
 }
 
 }  // namespace asperity

@@ -27,7 +27,8 @@ inline constexpr double kEdgeTolerance = 1e-12;
 /// Why the measurement contradicts itself, in one line; empty when it does not. Looks at the sizes
 /// of all arrays, the detector, and the balance of energy of every layer and channel:
 ///     rays * 2^32 = escaped + absorbed + truncated + edge
-///     escaped = sum of `energy` = sum of `escaped_by_bounce`.
+///     escaped = sum of `energy` = sum of `escaped_by_bounce`;
+/// and for what out_of_range() finds.
 std::string contradiction(const Measurement& measurement);
 
 }  // namespace io

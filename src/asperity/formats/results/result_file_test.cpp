@@ -22,17 +22,17 @@ using test::TemporaryFolder;
 
 // A layer whose energies are random and balanced: the rays are dealt out to fates, the escaped ones
 // to cells, and the same sum once more to bounces.
-Layer random_layer(const Measurement& m, int number, std::mt19937_64& engine) {
+Layer random_layer(const Measurement& m, const Incidence& light, std::mt19937_64& engine) {
     const auto channels = static_cast<std::size_t>(m.channels());
     const auto cells = static_cast<std::size_t>(m.detector.cells());
     const auto slices = static_cast<std::size_t>(m.orders()) * channels;
     const auto bounces = static_cast<std::size_t>(m.bounces());
     Layer layer;
-    layer.number = number;
-    layer.theta_i = 0.1 * number + 1e-17;
-    layer.phi_i = -1.0 / 3;
+    layer.number = light.number;
+    layer.theta_i = light.theta + 1e-17;
+    layer.phi_i = light.phi;
     layer.rays = 1000 + engine() % 1000;
-    layer.segments = engine(), layer.reflections = engine(), layer.stuck = engine();
+    layer.segments = engine(), layer.reflections = engine() % 3000, layer.stuck = engine() % 1000;
     layer.batches = 7;
     layer.escaped_by_bounce.assign(channels * bounces, 0);
     layer.energy.resize(slices * cells);
@@ -64,6 +64,8 @@ Measurement small_measurement(unsigned seed = 1, int layers = 2) {
     m.experiment.detector = {DetectorKind::EqualArea, 4, 2};
     m.experiment.run.bounces = 3;
     m.experiment.surface.alpha_x = 0.1;
+    m.experiment.illumination.layers = std::max(1, layers);
+    m.experiment.illumination.phi_deg = {-100.0 / 7};
     m.detector = Detector(m.experiment.detector);
     m.channel_names = {"R", "G", "B"};
     m.surface.rms_height = 1.0 / 3;
@@ -74,7 +76,8 @@ Measurement small_measurement(unsigned seed = 1, int layers = 2) {
     m.surface_nx = 5, m.surface_ny = 6;
     m.surface_dx = 0.1, m.surface_dy = 1e-6;
     m.surface_isotropic = true;
-    for (int k = 0; k < layers; ++k) m.layers.push_back(random_layer(m, layers - k, engine));
+    for (const Incidence& light : incidences(m.experiment.illumination))
+        if (layers > 0) m.layers.push_back(random_layer(m, light, engine));
     m.stopped = true;
     m.notes = {"One.", "Two, with a \\."};
     m.trace_seconds = 0.1;
@@ -233,6 +236,7 @@ TEST(ResultFile, RefusesToSaveAContradiction) {
     refused("0 channels", [](Measurement& m) { m.channel_names.clear(); });
     refused("detector", [](Measurement& m) { m.experiment.detector.resolution = 8; });
     refused("no incident direction", [](Measurement& m) { m.layers[0].theta_i = -1; });
+    refused("the experiment has no such light", [](Measurement& m) { m.layers[0].theta_i = 1; });
 }
 
 // Files with right checksums whose content is wrong all the same.
@@ -277,6 +281,10 @@ TEST(ResultFile, RefusesWellFormedNonsense) {
     refused("rays", std::string(16, '\0'), TensorType::U64, {2}, "launched energy is not");
     refused("rays", std::string(16, '\xff'), TensorType::U64, {2}, "rays are too many");
     refused("rays", std::string(16, '\0'), TensorType::I64, {2}, "another type");
+    refused("phi_i", std::string(16, '\0'), TensorType::F64, {2}, "has no such light");
+    refused("batches", std::string(8, '\xff'), TensorType::I32, {2}, "layer 2: -1 batches");
+    refused("stuck", std::string(16, '\xff'), TensorType::U64, {2}, "rays stuck");
+    refused("stderr_albedo", std::string(48, '\xff'), TensorType::F64, {2, 3}, "is negative or no");
     refused("theta_edges", std::string(24, '\xff'), TensorType::F64, {3}, "does not fit the");
     refused("format", std::string("\2\0\0\0", 4), TensorType::U32, {1}, "format 2 is not known");
     refused("format", std::string("\0\0\0\0", 4), TensorType::U32, {1}, "format 0 is not known");
