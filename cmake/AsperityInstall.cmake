@@ -4,6 +4,8 @@
 #
 # A component is a module of src/asperity or a group of them. Which modules and packages each needs is
 # read from what its target links.
+#
+# For cmake --install --component the lot is called development, the command line's program is program.
 include(CMakePackageConfigHelpers)
 
 set(ASPERITY_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/Asperity)
@@ -63,7 +65,8 @@ function(asperity_pkg_config name modules requires libs)
     list(JOIN modules " " modules)
     list(JOIN requires " " requires)
     configure_file(cmake/asperity.pc.in ${name}.pc @ONLY)
-    install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+    install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 endfunction()
 
 set(ASPERITY_TABLE "")
@@ -72,15 +75,16 @@ foreach(module IN LISTS ASPERITY_MODULES)
     string(APPEND ASPERITY_TABLE "set(_asperity_needs_${module} \"${needs}\")\n"
         "set(_asperity_packages_${module} \"${packages}\")\n")
     asperity_pkg_config(asperity-${module} "${needs}" "${requires}" "${libs}")
-    install(TARGETS asperity_${module} EXPORT asperity_${module})
+    install(TARGETS asperity_${module} EXPORT asperity_${module} COMPONENT development)
     install(EXPORT asperity_${module} NAMESPACE asperity:: FILE AsperityTargets-${module}.cmake
-        DESTINATION ${ASPERITY_PACKAGE_DIR})
+        DESTINATION ${ASPERITY_PACKAGE_DIR} COMPONENT development)
 endforeach()
 asperity_pkg_config(asperity-measure "${ASPERITY_GROUP_measure}" "" "")
 asperity_pkg_config(asperity "${ASPERITY_MODULES}" "" "")
 
 # Headers go by their list, not by target: a package without components still has them all.
-install(TARGETS asperity FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(TARGETS asperity
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 
 configure_package_config_file(cmake/AsperityConfig.cmake.in AsperityConfig.cmake
     INSTALL_DESTINATION ${ASPERITY_PACKAGE_DIR}
@@ -89,7 +93,7 @@ write_basic_package_version_file(AsperityConfigVersion.cmake COMPATIBILITY SameM
 install(FILES
     ${CMAKE_CURRENT_BINARY_DIR}/AsperityConfig.cmake
     ${CMAKE_CURRENT_BINARY_DIR}/AsperityConfigVersion.cmake
-    DESTINATION ${ASPERITY_PACKAGE_DIR})
+    DESTINATION ${ASPERITY_PACKAGE_DIR} COMPONENT development)
 
 # ninja uninstall takes away what the last install from this build wrote.
 add_custom_target(uninstall

@@ -4,6 +4,7 @@
 // All public headers. A program that measures needs no more than
 //     #include <asperity/gonio/measure.h>
 //     #include <asperity/surface/make_surface.h>
+#include <asperity/surface/normal_distribution.h>
 #include <asperity/bsdf/bsdf.h>
 #include <asperity/bsdf/bsdf_models.h>
 #include <asperity/bsdf/models/cook_torrance.h>
@@ -81,6 +82,7 @@
 #include <asperity/render/traced_model.h>
 #include <asperity/surface/heightfield.h>
 #include <asperity/surface/make_surface.h>
+#include <asperity/surface/normal_distribution.h>
 #include <asperity/surface/slope_distribution.h>
 #include <asperity/surface/statistics.h>
 #include <asperity/surface/surface_kinds.h>

@@ -44,7 +44,12 @@ HeightsOptions options_of(const SurfaceSettings& settings) {
 
 Heightfield load_file(const SurfaceSettings& settings, Run& run) {
     if (settings.file.empty()) throw Error(ErrorCode::Usage, "the file name is empty", "surface");
-    Topography topography = read_topography(settings.file, options_of(settings), run);
+    return surface_of(read_topography(settings.file, options_of(settings), run), settings);
+}
+
+}  // namespace
+
+Heightfield surface_of(Topography topography, const SurfaceSettings& settings) {
     apply_cell_size(topography, settings);
     Heightfield surface = prepare(std::move(topography), settings.file);
     for (float& h : surface.heights)
@@ -56,8 +61,6 @@ Heightfield load_file(const SurfaceSettings& settings, Run& run) {
     if (surface.name.empty()) surface.name = settings.file;
     return surface;
 }
-
-}  // namespace
 
 std::vector<HeightsChannel> list_channels(const SurfaceSettings& settings, Run& run) {
     return HeightsFormats().list(HeightsSource(settings.file, options_of(settings), run));

@@ -15,6 +15,9 @@ namespace asperity::io {
 /// Throws what make_surface throws, and Error(InputOutput | InvalidInput, "file:place").
 Heightfield load_surface(const SurfaceSettings& settings, Run& run);
 
+/// The same from a topography that is there already, in place of the file that the settings name.
+Heightfield surface_of(Topography topography, const SurfaceSettings& settings);
+
 /// Reads a topography as its file has it, by its content, else its ending, else as `options` say;
 /// HeightsFormats has the table. Nothing is filled, scaled or mirrored.
 Topography read_topography(const std::string& path, const HeightsOptions& options, Run& run);

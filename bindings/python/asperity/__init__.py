@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A virtual gonioreflectometer.
+
+A microscopic rough surface goes in; light is traced onto it; what leaves is sorted by direction; out comes a
+BRDF with error bars.
+
+    import asperity
+
+    surface = asperity.gaussian(alpha=0.3, size=256)
+    m = asperity.measure(surface, material="Au", theta_deg=[0, 30, 60], until=0.01)
+    print(m.albedo, m.albedo_stderr)        # [layer, channel]
+    print(asperity.compare(m, "beckmann:alpha=0.3,material=Au"))
+    m.export("gold.bsdf")                   # for Mitsuba
+
+Angles are in degrees in names that say so; directions are unit vectors that point away from the surface, z along
+the mean normal; a BRDF never includes the cosine.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from . import _core
+from ._bsdf import Bsdf, OwnBsdf, bsdf
+from ._compare import Comparison, compare
+from ._errors import Error, ErrorCode, StoppedWarning
+from ._export import Export, Fidelity
+from ._measurement import Measurement, load, measure
+from ._render import light, render, tonemap
+from ._made import *
+from ._made import __all__ as _kinds
+from ._run import Progress
+from ._surface import Surface, from_array, read, surface
+from ._sweep import Sweep, sweep
+from ._tables import bsdf_formats, bsdf_models, heights_formats, materials, scene_models, settings, surface_kinds
+
+__version__: str = _core.version
+
+__all__ = sorted([
+    "Bsdf", "Comparison", "Error", "ErrorCode", "Export", "Fidelity", "Measurement", "OwnBsdf", "Progress",
+    "StoppedWarning", "Surface", "Sweep", "bsdf", "bsdf_formats", "bsdf_models", "compare", "from_array",
+    "heights_formats", "light", "load", "materials", "measure", "plot", "read", "render",
+    "scene_models", "settings", "surface", "surface_kinds", "sweep", "tonemap", *_kinds])
+
+
+def __getattr__(name: str) -> Any:
+    # matplotlib is loaded by who plots, not by who measures
+    if name == "plot":
+        import importlib
+
+        return importlib.import_module("asperity.plot")
+    raise AttributeError(f"module 'asperity' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// A BSDF written in Python, evaluated by whole arrays.
+#pragma once
+
+#include "arrays.h"
+
+#include <asperity/bsdf/bsdf.h>
+
+#include <array>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace asperity::python {
+
+/// A function of Python as a Bsdf. Python is never asked from inside the library, pair by pair:
+/// what is not known yet is 0 and noted, and the work that asked for it is done again once Python
+/// has answered all of it in one call. Work whose questions depend on the answers needs a few
+/// rounds; each round asks for what the one before could not know.
+///
+/// sample() draws from a cosine. Thread-safe between rounds.
+class OwnBsdf final : public Bsdf {
+  public:
+    OwnBsdf(nb::object eval, std::string name, int channels, bool isotropic)
+        : eval_(std::move(eval)),
+          name_(std::move(name)),
+          channels_(channels),
+          isotropic_(isotropic) {}
+
+    int channels() const override { return channels_; }
+    std::string name() const override { return name_; }
+    bool isotropic() const override { return isotropic_; }
+    void eval(Vec3 wi, Vec3 wo, std::span<double> f) const override;
+    std::optional<BsdfSample> sample(Vec3 wi, double u1, double u2) const override;
+    double pdf(Vec3 wi, Vec3 wo) const override;
+    /// By a fixed rule of 24 x 48 points: the nodes must not depend on the answers.
+    void albedo(Vec3 wi, std::span<double> a) const override;
+
+    /// Asks Python, with the GIL held, for what was noted; false when nothing was. Throws
+    /// Error(Usage, name) for an answer of another shape, or one that is not finite or negative.
+    bool answer();
+
+  private:
+    using Pair = std::array<double, 6>;
+    struct Hash {
+        std::size_t operator()(const Pair& pair) const;
+    };
+    void ask(const std::vector<Pair>& pairs, std::size_t begin, std::size_t end);
+
+    nb::object eval_;
+    std::string name_;
+    int channels_;
+    bool isotropic_;
+    std::unordered_map<Pair, std::size_t, Hash> known_;  ///< place in values_
+    std::vector<double> values_;
+    mutable std::mutex mutex_;
+    mutable std::vector<Pair> asked_;
+};
+
+/// What work(bsdf) gives once Python has answered all that it asks.
+template <typename Work>
+auto with_answers(OwnBsdf& bsdf, Work&& work) {
+    for (;;) {
+        auto result = [&] {
+            const nb::gil_scoped_release free;
+            return work(static_cast<const Bsdf&>(bsdf));
+        }();
+        if (PyErr_CheckSignals() != 0) throw nb::python_error();
+        if (!bsdf.answer()) return result;
+    }
+}
+
+}  // namespace asperity::python
