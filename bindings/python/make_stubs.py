@@ -18,8 +18,6 @@ from typing import Any, Literal, TypedDict
 
 from ._run import ProgressArgument, StopArgument
 from ._surface import Surface
-
-__all__: list[str]
 '''
 
 
@@ -43,7 +41,8 @@ def keywords(name: str, doc: str, known: dict[str, str]) -> str:
 
 def main() -> None:
     every = _settings.keywords(("Surface",))
-    parts = [HEAD, *(function(kind) for kind in _core.surface_kinds()),
+    names = [kind["name"].replace("-", "_") for kind in _core.surface_kinds()]
+    parts = [HEAD, f"__all__ = {names!r}", *(function(kind) for kind in _core.surface_kinds()),
              keywords("MeasureSettings", "Keywords of measure().", measure_keywords()),
              keywords("FileSettings", "Keywords of read().", file_keywords()),
              keywords("SurfaceSettings", "Keywords of surface().", every)]

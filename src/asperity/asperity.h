@@ -4,7 +4,6 @@
 // All public headers. A program that measures needs no more than
 //     #include <asperity/gonio/measure.h>
 //     #include <asperity/surface/make_surface.h>
-#include <asperity/surface/normal_distribution.h>
 #include <asperity/bsdf/bsdf.h>
 #include <asperity/bsdf/bsdf_models.h>
 #include <asperity/bsdf/models/cook_torrance.h>

@@ -18,9 +18,9 @@ the mean normal; a BRDF never includes the cosine.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from . import _core
+from . import _core, _made
 from ._bsdf import Bsdf, OwnBsdf, bsdf
 from ._compare import Comparison, compare
 from ._errors import Error, ErrorCode, StoppedWarning
@@ -28,28 +28,32 @@ from ._export import Export, Fidelity
 from ._measurement import Measurement, load, measure
 from ._render import light, render, tonemap
 from ._made import *
-from ._made import __all__ as _kinds
 from ._run import Progress
 from ._surface import Surface, from_array, read, surface
 from ._sweep import Sweep, sweep
 from ._tables import bsdf_formats, bsdf_models, heights_formats, materials, scene_models, settings, surface_kinds
 
+if TYPE_CHECKING:
+    from . import plot
+
 __version__: str = _core.version
 
-__all__ = sorted([
+__all__ = [
     "Bsdf", "Comparison", "Error", "ErrorCode", "Export", "Fidelity", "Measurement", "OwnBsdf", "Progress",
     "StoppedWarning", "Surface", "Sweep", "bsdf", "bsdf_formats", "bsdf_models", "compare", "from_array",
-    "heights_formats", "light", "load", "materials", "measure", "plot", "read", "render",
-    "scene_models", "settings", "surface", "surface_kinds", "sweep", "tonemap", *_kinds])
+    "heights_formats", "light", "load", "materials", "measure", "plot", "read", "render", "scene_models", "settings",
+    "surface", "surface_kinds", "sweep", "tonemap"]
+__all__ += _made.__all__
 
 
-def __getattr__(name: str) -> Any:
-    # matplotlib is loaded by who plots, not by who measures
-    if name == "plot":
-        import importlib
+if not TYPE_CHECKING:
+    def __getattr__(name: str) -> Any:
+        # matplotlib is loaded by who plots, not by who measures
+        if name == "plot":
+            import importlib
 
-        return importlib.import_module("asperity.plot")
-    raise AttributeError(f"module 'asperity' has no attribute {name!r}")
+            return importlib.import_module("asperity.plot")
+        raise AttributeError(f"module 'asperity' has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:

@@ -112,7 +112,7 @@ def _broadcast(a: tuple[int, ...], b: tuple[int, ...], name: str) -> tuple[int, 
 
 def _expand(rows: Array, shape: tuple[int, ...], wanted: tuple[int, ...]) -> Array:
     """The rows for the broadcast shape; one row alone stays one, the library takes it for all."""
-    if rows.shape[0] == 1 or shape == wanted:
+    if rows.shape[0] <= 1 or shape == wanted:
         return rows
     last = rows.shape[-1]
     return np.ascontiguousarray(np.broadcast_to(rows.reshape(*shape, last), (*wanted, last))).reshape(-1, last)
@@ -145,9 +145,9 @@ def bsdf(source: Union[str, "os.PathLike[str]", Measurement]) -> Bsdf:
         if "/" in path or "." in path.split(":")[0]:
             raise Error("there is no such file", 4, path)
         return Bsdf(_core.Bsdf.of_spec(text), text)
-    if _core.is_result(path):
-        return Bsdf(_core.Bsdf.of_measurement(_core.Measurement.load(path)), text)
-    return Bsdf(_core.Bsdf.of_file(path), text)
+    if _core.Bsdf.can_read(path):
+        return Bsdf(_core.Bsdf.of_file(path), text)
+    return Bsdf(_core.Bsdf.of_measurement(_core.Measurement.load(path)), text)
 
 
 def handle_of(source: Any, place: str) -> Any:
@@ -158,7 +158,7 @@ def handle_of(source: Any, place: str) -> Any:
         return source._handle
     if isinstance(source, (str, os.PathLike)):
         path = os.fspath(source)
-        if os.path.exists(path) and _core.is_result(path):
+        if os.path.exists(path) and _core.is_result(path) and not _core.Bsdf.can_read(path):
             return _core.Measurement.load(path)
         return bsdf(source)._handle
     if callable(getattr(source, "eval", None)):

@@ -140,6 +140,8 @@ void add_bsdfs(nb::module_& module) {
                         return BsdfHandle{parse_brdf_spec(spec), true};
                     })
         .def_static("is_spec", [](const std::string& text) { return is_brdf_spec(text); })
+        .def_static("can_read",
+                    [](const std::string& path) { return io::BsdfFormats().can_read(path); })
         .def_static("of_file",
                     [](const std::string& path) {
                         const nb::gil_scoped_release free;

@@ -2,6 +2,7 @@
 #include "own_bsdf.h"
 
 #include <asperity/bsdf/models/lambert.h>
+#include <asperity/bsdf/models/microfacet.h>
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
 
@@ -24,7 +25,8 @@ std::size_t OwnBsdf::Hash::operator()(const Pair& pair) const {
 void OwnBsdf::eval(Vec3 wi, Vec3 wo, std::span<double> f) const {
     std::fill(f.begin(), f.end(), 0.0);
     if (wi.z <= 0 || wo.z <= 0) return;
-    const Pair pair = {wi.x, wi.y, wi.z, wo.x, wo.y, wo.z};
+    // -0 + 0 is 0: the two zeros are one number here
+    const Pair pair = {wi.x + 0.0, wi.y + 0.0, wi.z, wo.x + 0.0, wo.y + 0.0, wo.z};
     if (const auto found = known_.find(pair); found != known_.end()) {
         std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(found->second), channels_,
                     f.begin());
@@ -44,19 +46,32 @@ double OwnBsdf::pdf(Vec3 wi, Vec3 wo) const {
     return wi.z > 0 && wo.z > 0 ? wo.z / kPi : 0;
 }
 
+OwnBsdf::OwnBsdf(nb::object eval, std::string name, int channels, bool isotropic)
+    : eval_(std::move(eval)), name_(std::move(name)), channels_(channels), isotropic_(isotropic) {
+    ways_.push_back(std::make_unique<LambertBrdf>(std::vector<double>{1.0}));
+    for (const double alpha : {0.01, 0.04, 0.15, 0.5}) {
+        MicrofacetSettings settings;
+        settings.alpha_x = settings.alpha_y = alpha;
+        ways_.push_back(std::make_unique<MicrofacetBrdf>(settings));
+    }
+}
+
 void OwnBsdf::albedo(Vec3 wi, std::span<double> a) const {
-    constexpr int kRows = 24, kColumns = 48;
     std::fill(a.begin(), a.end(), 0.0);
+    if (wi.z <= 0) return;
+    const int points = isotropic_ ? 256 : 128;
     std::array<double, kMaxBsdfChannels> values{};
     const std::span<double> f = std::span(values).first(static_cast<std::size_t>(channels_));
-    const double turn = azimuth(wi);
-    for (int row = 0; row < kRows; ++row)
-        for (int column = 0; column < kColumns; ++column) {
-            const double s = (row + 0.5) / kRows;  // sin^2(theta): cos(theta) dw = ds dphi / 2
-            const double phi = turn + 2 * kPi * (column + 0.5) / kColumns;
-            const double sine = std::sqrt(s);
-            eval(wi, {sine * std::cos(phi), sine * std::sin(phi), std::sqrt(1 - s)}, f);
-            for (std::size_t c = 0; c < f.size(); ++c) a[c] += kPi * f[c] / (kRows * kColumns);
+    for (const auto& way : ways_)
+        for (int k = 0; k < points; ++k) {
+            constexpr double kGolden = 0.6180339887498949;  // a lattice: even in both numbers
+            const double u = (k + 0.5) / points, v = std::fmod(kGolden * (k + 0.5), 1.0);
+            const auto drawn = way->sample(wi, u, v);
+            if (!drawn || drawn->wo.z <= 0) continue;
+            double density = 0;
+            for (const auto& other : ways_) density += points * other->pdf(wi, drawn->wo);
+            eval(wi, drawn->wo, f);
+            for (std::size_t c = 0; c < f.size(); ++c) a[c] += f[c] * drawn->wo.z / density;
         }
 }
 

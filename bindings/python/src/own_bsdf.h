@@ -7,6 +7,7 @@
 #include <asperity/bsdf/bsdf.h>
 
 #include <array>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <unordered_map>
@@ -22,11 +23,7 @@ namespace asperity::python {
 /// sample() draws from a cosine. Thread-safe between rounds.
 class OwnBsdf final : public Bsdf {
   public:
-    OwnBsdf(nb::object eval, std::string name, int channels, bool isotropic)
-        : eval_(std::move(eval)),
-          name_(std::move(name)),
-          channels_(channels),
-          isotropic_(isotropic) {}
+    OwnBsdf(nb::object eval, std::string name, int channels, bool isotropic);
 
     int channels() const override { return channels_; }
     std::string name() const override { return name_; }
@@ -34,7 +31,9 @@ class OwnBsdf final : public Bsdf {
     void eval(Vec3 wi, Vec3 wo, std::span<double> f) const override;
     std::optional<BsdfSample> sample(Vec3 wi, double u1, double u2) const override;
     double pdf(Vec3 wi, Vec3 wo) const override;
-    /// By a fixed rule of 24 x 48 points: the nodes must not depend on the answers.
+    /// From directions that must not depend on the answers: drawn by a cosine and by mirrors of
+    /// four widths, weighted by the balance heuristic (Veach and Guibas 1995). Within a percent for
+    /// a lobe about the mirror direction, however narrow down to alpha 0.01.
     void albedo(Vec3 wi, std::span<double> a) const override;
 
     /// Asks Python, with the GIL held, for what was noted; false when nothing was. Throws
@@ -52,6 +51,7 @@ class OwnBsdf final : public Bsdf {
     std::string name_;
     int channels_;
     bool isotropic_;
+    std::vector<std::unique_ptr<Bsdf>> ways_;            ///< in which albedo() draws directions
     std::unordered_map<Pair, std::size_t, Hash> known_;  ///< place in values_
     std::vector<double> values_;
     mutable std::mutex mutex_;

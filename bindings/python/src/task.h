@@ -19,18 +19,17 @@ namespace asperity::python {
 namespace nb = nanobind;
 
 /// What a caller may ask for: `progress(stage, done, total, seconds, seconds_left)`, called about
-/// ten times a second, and `stop()`, asked as often, true to stop. None: neither.
+/// ten times a second, and `stop()`, asked fifty times a second, true to stop. None: neither.
 struct Callbacks {
     nb::object progress, stop;
 
-    /// From the thread that holds the GIL. True when the task shall stop.
-    bool ask(const Run& run) const {
-        if (!progress.is_none()) {
-            const Progress p = run.progress();
-            progress(p.stage, p.done, p.total, p.seconds, p.seconds_left);
-        }
-        return !stop.is_none() && nb::cast<bool>(stop());
+    // From the thread that holds the GIL.
+    void tell(const Run& run) const {
+        if (progress.is_none()) return;
+        const Progress p = run.progress();
+        progress(p.stage, p.done, p.total, p.seconds, p.seconds_left);
     }
+    bool wants_stop() const { return !stop.is_none() && nb::cast<bool>(stop()); }
 };
 
 /// What came of a task. `interrupted`: by Ctrl-C, which the caller must tell or raise.
@@ -47,7 +46,7 @@ template <typename Work>
 auto run_task(Run& run, const Callbacks& callbacks, Work&& work) {
     using Result = decltype(work());
     constexpr auto kPatience = std::chrono::milliseconds(20);
-    constexpr int kCallEvery = 5;  // of the above: ten times a second
+    constexpr int kTellEvery = 5;  // of the above: ten times a second
 
     std::optional<Result> result;
     std::exception_ptr failure;
@@ -75,7 +74,8 @@ auto run_task(Run& run, const Callbacks& callbacks, Work&& work) {
         if (raised) continue;
         try {
             if (PyErr_CheckSignals() != 0) throw nb::python_error();
-            if (turn % kCallEvery == 0 && callbacks.ask(run)) run.request_stop();
+            if (turn % kTellEvery == 0) callbacks.tell(run);
+            if (callbacks.wants_stop()) run.request_stop();
         } catch (nb::python_error& error) {
             raised.emplace(std::move(error));
             run.request_stop();
@@ -83,7 +83,7 @@ auto run_task(Run& run, const Callbacks& callbacks, Work&& work) {
     }
     worker.join();
     // A finished task is told once more, all done
-    if (!failure && !raised && !callbacks.progress.is_none()) callbacks.ask(run);
+    if (!failure && !raised) callbacks.tell(run);
 
     const bool interrupted = raised && raised->matches(PyExc_KeyboardInterrupt);
     if (raised && (failure || !interrupted)) throw std::move(*raised);

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Sweeps: the same files and the same table, however often they were killed."""
+import csv
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import time
+
+import asperity
+import numpy as np
+import pytest
+from asperity import ErrorCode
+
+from test_surfaces import refused
+
+SMALL = {"surface": "gaussian", "size": 16, "theta_deg": [[0, 40]], "resolution": 8, "rays": 256, "batches": 2}
+
+
+def contents(folder):
+    return {p.name: p.read_bytes() for p in sorted(pathlib.Path(folder).iterdir()) if p.is_file()}
+
+
+def checksums(folder):
+    return {p.name: asperity.load(p).checksum for p in pathlib.Path(folder).glob("*.asperity")}
+
+
+def test_every_combination_is_measured_once(tmp_path):
+    heard = []
+    s = asperity.sweep({**SMALL, "alpha": [0.1, 0.2, 0.3], "seed": [1, 2]}, tmp_path, progress=heard.append)
+    assert len(s) == 6 and len(set(s.files)) == 6 and heard[-1].done == heard[-1].total == 6
+    assert [e["alpha"] for e in s.experiments] == [0.1, 0.1, 0.2, 0.2, 0.3, 0.3]
+    direct = asperity.measure(asperity.gaussian(size=16, alpha=0.2), theta_deg=[0, 40], resolution=8, rays=256, batches=2,
+                              seed=2)
+    assert s[3].checksum == direct.checksum
+    assert [m.checksum for m in s][3] == direct.checksum
+    with open(s.table_file, newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 6 * 2
+    row = next(r for r in rows if r["experiment"] == "3" and float(r["theta_i_deg"]) == 40)
+    assert float(row["albedo"]) == direct.albedo[1, 0] and row["checksum"] == direct.checksum
+    assert float(row["surface_alpha_x"]) == direct.surface["alpha_x"]
+    assert s.table["alpha"][0] == 0.1
+    # What is there is not measured again
+    before = {p: os.stat(p).st_mtime_ns for p in s.files}
+    again = asperity.sweep({**SMALL, "alpha": [0.3, 0.1], "seed": [2]}, tmp_path)
+    assert set(again.files) < set(before) and {p: os.stat(p).st_mtime_ns for p in s.files} == before
+    artists = asperity.plot.curves(s, "alpha", by="theta_i_deg")
+    assert len(artists) == 2
+
+
+def test_a_damaged_or_foreign_file_is_measured_again(tmp_path):
+    s = asperity.sweep({**SMALL, "alpha": [0.1, 0.2]}, tmp_path)
+    right = checksums(tmp_path)
+    a, b = (pathlib.Path(f) for f in s.files)
+    a.write_bytes(a.read_bytes()[:-7])
+    b.write_bytes(pathlib.Path(asperity.sweep({**SMALL, "alpha": 0.3}, tmp_path / "o").files[0]).read_bytes())
+    asperity.sweep({**SMALL, "alpha": [0.1, 0.2]}, tmp_path)
+    assert checksums(tmp_path) == right
+
+
+def test_arrays_and_lists_of_experiments(tmp_path, rough):
+    z = np.array(rough.heights)[:16, :16]
+    one = {"surface": asperity.from_array(z), "theta_deg": 10, "resolution": 8, "rays": 100}
+    two = {"surface": "thesis", "roughness": 0.1, "size": 16, "theta_deg": 10, "resolution": 8, "rays": 100}
+    three = {**one, "surface": asperity.from_array(2 * z)}
+    s = asperity.sweep([one, two, three, one], tmp_path, processes=2, threads=1)
+    assert len(s) == 4 and len(set(s.files)) == 3
+    assert s[0].checksum == asperity.measure(one["surface"], theta_deg=10, resolution=8, rays=100).checksum
+    assert s[0] != s[2]
+
+
+def test_wrong_experiments_are_told_before_any_is_measured(tmp_path):
+    error = refused(lambda: asperity.sweep({**SMALL, "alpha": [0.1, -1]}, tmp_path), ErrorCode.USAGE, "alpha")
+    assert error.place == "experiment 1" and not list(tmp_path.glob("*.asperity"))
+    refused(lambda: asperity.sweep([{"alpha": 1}], tmp_path), ErrorCode.USAGE, "surface")
+    refused(lambda: asperity.sweep({**SMALL, "alfa": 1}, tmp_path), ErrorCode.USAGE, "did you mean 'alpha'")
+    refused(lambda: asperity.sweep({**SMALL, "alpha": []}, tmp_path), ErrorCode.USAGE, "empty")
+    refused(lambda: asperity.sweep(SMALL, tmp_path, processes=0), ErrorCode.USAGE, "processes")
+
+
+def test_one_that_fails_leaves_the_others(tmp_path):
+    wrong = {"surface": str(tmp_path / "none.gsf"), "theta_deg": 10}
+    experiments = [{**SMALL, "theta_deg": 5}, wrong, {**SMALL, "theta_deg": 6}]
+    for options in ({"processes": 2, "threads": 1}, {}):
+        error = refused(lambda: asperity.sweep(experiments, tmp_path / "s", **options), ErrorCode.INVALID_INPUT,
+                        "1 of 3")
+        assert error.place == "experiment 1"
+    s = asperity.sweep(experiments, tmp_path / "s", on_error="keep")
+    assert [bool(e) for e in s.errors] == [False, True, False] and "none.gsf" in s.errors[1]
+
+
+def test_stop_keeps_what_is_complete(tmp_path):
+    turns = iter(range(10**9))
+    refused(lambda: asperity.sweep({**SMALL, "alpha": list(np.linspace(0.1, 1, 50))}, tmp_path,
+                                   stop=lambda: next(turns) > 20), ErrorCode.STOPPED, "of 50")
+    assert 0 < len(list(tmp_path.glob("*.asperity"))) < 50
+
+
+SCRIPT = """
+import asperity, numpy, sys
+asperity.sweep({"surface": "gaussian", "size": 16, "theta_deg": [[0, 40]], "resolution": 8, "rays": 256,
+                "batches": 2, "alpha": numpy.linspace(0.05, 1, 60), "seed": [1, 2, 3]}, sys.argv[1], processes=2)
+"""
+
+
+def children(pid):
+    found = subprocess.run(["ps", "-o", "pid=", "--ppid", str(pid)], capture_output=True, text=True).stdout.split()
+    return [int(p) for p in found]
+
+
+def alive(pid):
+    try:
+        return "Z" not in pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0]
+    except OSError:
+        return False
+
+
+def test_killed_at_random_it_ends_with_the_same(tmp_path):
+    """180 experiments in two processes, parent or worker killed five times, then left alone."""
+    calm, wild = tmp_path / "calm", tmp_path / "wild"
+    subprocess.run([sys.executable, "-c", SCRIPT, calm], check=True)
+    rng = random.Random(5)
+    left = []
+    for turn in range(5):
+        process = subprocess.Popen([sys.executable, "-c", SCRIPT, wild])
+        time.sleep(0.5 + rng.random() * 0.5)
+        workers = children(process.pid)
+        if turn == 4 and workers:
+            os.kill(workers[0], signal.SIGKILL)  # a worker alone: the sweep goes on without it
+            assert process.wait(timeout=60) == 0
+        else:
+            process.kill()
+            process.wait()
+        left += workers
+    subprocess.run([sys.executable, "-c", SCRIPT, wild], check=True)
+    results = [n for n in contents(wild) if n.endswith(".asperity")]
+    assert len(results) == 180
+    assert checksums(wild) == checksums(calm)
+    assert contents(wild)["sweep.csv"] == contents(calm)["sweep.csv"]
+    deadline = time.monotonic() + 5
+    while any(alive(p) for p in left) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert not [p for p in left if alive(p)], "a worker outlived its parent"
