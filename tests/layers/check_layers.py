@@ -3,7 +3,7 @@
 """Reads the #include lines of a source tree and fails on one that runs against the data.
 
     core <- params <- optics, surface, detector <- tracing <- gonio <- measured <- formats, pictures <- apps
-    core <- optics, surface <- bsdf <- measured, render
+    core <- optics, surface <- bsdf <- measured, render; measured <- fit
 
 A room of src/asperity, a folder or the folder of a kind of format, includes only itself and what
 MAY_SEE names. Formats see the data types of the others, and no room of data sees a format. render
@@ -28,6 +28,7 @@ MAY_SEE = {
     "gonio": {"core", "params", "optics", "surface", "tracing", "detector"},
     "bsdf": {"core", "params", "optics", "surface"},
     "measured": {"core", "optics", "surface", "tracing", "gonio", "bsdf", "detector"},
+    "fit": {"core", "params", "optics", "gonio", "bsdf", "measured", "detector"},
     "render": {"core", "optics", "surface", "bsdf"},
     "formats": {"core"},
     "formats/exr": {"core", "formats"},

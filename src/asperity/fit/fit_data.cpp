@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/core/directions.h>
+#include <asperity/core/energy.h>
+#include <asperity/core/error.h>
+#include <asperity/core/parallel.h>
+#include <asperity/fit/fit_data.h>
+#include <asperity/fit/lobe_blocks.h>
+#include <asperity/measured/compare.h>
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace asperity {
+namespace {
+
+/// Rows whose middle lies above `last_theta`.
+int rows_below(const Detector& detector, double last_theta) {
+    int rows = 1;
+    while (rows < detector.rows() && detector.theta_centre(rows) < last_theta) ++rows;
+    return rows;
+}
+
+/// Energies and variances of a layer. The light of one bounce order has its share of the variance
+/// of all.
+detail::LayerEnergies energies_of(const Measurement& m, const Layer& layer, FitLight light) {
+    detail::LayerEnergies values;
+    const int cells = m.detector.cells();
+    for (int channel = 0; channel < m.channels(); ++channel)
+        for (int cell = 0; cell < cells; ++cell) {
+            const double all = m.energy(layer, channel, cell);
+            const double energy = light == FitLight::All ? all : m.energy(layer, 0, channel, cell);
+            values.energy.push_back(energy);
+            if (layer.stderr_energy.empty()) continue;
+            const double error = static_cast<double>(
+                layer.stderr_energy[static_cast<std::size_t>(channel * cells + cell)]);
+            values.variance.push_back(all > 0 ? error * error * energy / all : 0.0);
+        }
+    return values;
+}
+
+bool any(const std::vector<double>& values) {
+    for (const double value : values)
+        if (value > 0) return true;
+    return false;
+}
+
+void require_layers(const FitData& data) {
+    if (data.layers.empty())
+        throw Error(ErrorCode::InvalidInput, "has no layer to fit to at these angles", data.name);
+}
+
+}  // namespace
+
+FitData fit_data(const Measurement& m, FitLight light, double last_theta) {
+    FitData data;
+    data.name = m.surface_name;
+    data.detector = m.detector;
+    data.channels = m.channels();
+    data.turns_with_light = m.experiment.illumination.isotropic;
+    data.optics = m.experiment.optics;
+    data.knows_optics = true;
+    if (light == FitLight::Single && m.orders() < 2 && m.bounces() > 1)
+        throw Error(
+            ErrorCode::InvalidInput,
+            "its orders of bounces were not kept apart, so light reflected once is not known",
+            data.name);
+    bool errors = true;
+    std::vector<detail::LayerEnergies> values;
+    for (const Layer& layer : m.layers) {
+        values.push_back(energies_of(m, layer, light));
+        errors = errors && any(values.back().variance);
+    }
+    for (std::size_t k = 0; k < m.layers.size(); ++k) {
+        const Layer& layer = m.layers[k];
+        if (layer.theta_i >= last_theta || !any(values[k].energy)) continue;
+        if (!errors) values[k].variance.clear();
+        detail::append_blocks(
+            data, {layer.theta_i, layer.phi_i, from_spherical(layer.theta_i, layer.phi_i), 0, 0},
+            values[k], rows_below(data.detector, last_theta));
+    }
+    require_layers(data);
+    return data;
+}
+
+FitData fit_data(const Bsdf& bsdf, const Experiment& experiment, double last_theta, int threads) {
+    FitData data;
+    data.name = bsdf.name();
+    data.detector = Detector(experiment.detector);
+    data.channels = bsdf.channels();
+    data.turns_with_light = experiment.illumination.isotropic;
+    for (const Incidence& light : incidences(experiment.illumination)) {
+        if (light.theta >= last_theta) continue;
+        CellAverages averages = average_over_cells(bsdf, data.detector, light.theta, light.phi,
+                                                   data.turns_with_light, threads);
+        if (!any(averages.energy)) continue;
+        detail::append_blocks(
+            data, {light.theta, light.phi, from_spherical(light.theta, light.phi), 0, 0},
+            {std::move(averages.energy), {}}, rows_below(data.detector, last_theta));
+    }
+    require_layers(data);
+    return data;
+}
+
+std::vector<double> predict(const FitData& data, const Bsdf& model, int threads) {
+    const auto channels = static_cast<std::size_t>(data.channels);
+    const auto own = static_cast<std::size_t>(model.channels());
+    if (own != channels && own != 1 && channels != 1)
+        throw Error(ErrorCode::Usage,
+                    fmt::format("the data have {} channels, the model {}", channels, own),
+                    model.name());
+    std::vector<double> energy(data.blocks.size() * channels, 0.0);
+    constexpr std::size_t kAtOnce = 32;
+    const std::size_t pieces = (data.blocks.size() + kAtOnce - 1) / kAtOnce;
+    parallel_for(pieces, threads, [&](std::size_t piece) {
+        std::array<double, kMaxBsdfChannels> values{};
+        const std::span<double> f = std::span(values).first(own);
+        const std::size_t end = std::min(data.blocks.size(), (piece + 1) * kAtOnce);
+        for (std::size_t b = piece * kAtOnce; b < end; ++b) {
+            const FitBlock& block = data.blocks[b];
+            double* const out = &energy[b * channels];
+            for (std::size_t n = block.first_node; n < block.first_node + block.nodes; ++n) {
+                const FitNode& node = data.nodes[n];
+                model.eval(data.layers[block.layer].wi, node.wo, f);
+                if (channels == 1)
+                    for (const double value : f) out[0] += node.weight * value / double(own);
+                else
+                    for (std::size_t c = 0; c < channels; ++c)
+                        out[c] += node.weight * f[own == 1 ? 0 : c];
+            }
+        }
+    });
+    return energy;
+}
+
+}  // namespace asperity

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/bsdf/bsdf.h>
+#include <asperity/gonio/measurement.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace asperity {
+
+/// Which light of a measurement a model is fitted to.
+enum class FitLight {
+    All,     ///< all that left the surface
+    Single,  ///< what left after one reflection: microfacet models know no other
+};
+
+/// Cells side by side, taken as one value: rows row0 .. row1 - 1, columns column0 .. column1 - 1.
+struct FitBlock {
+    std::size_t layer = 0;
+    int row0 = 0, row1 = 0, column0 = 0, column1 = 0;
+    double solid_angle = 0;  ///< [sr]
+    std::size_t first_node = 0, nodes = 0;
+};
+
+/// A direction in a block and the projected solid angle it stands for [sr].
+struct FitNode {
+    Vec3 wo;
+    double weight = 0;
+};
+
+struct FitLayer {
+    double theta_i = 0, phi_i = 0;
+    Vec3 wi;
+    std::size_t first_block = 0, blocks = 0;
+};
+
+/// What models are fitted to: energies of blocks of cells, with their errors.
+///
+/// A block is a single cell where much of the light goes and up to 0.08 sr where little does, so
+/// that each holds enough rays to count as normally distributed and to be integrated with few
+/// points. Index order: [block * channels + channel]; energies are fractions of the incident
+/// energy, integral of f cos(theta_o) over the block.
+struct FitData {
+    std::string name;
+    Detector detector;
+    int channels = 1;
+    bool turns_with_light =
+        false;              ///< averaged over the azimuth of the light: isotropic models only
+    OpticsSettings optics;  ///< of the facets, if `knows_optics`
+    bool knows_optics = false;
+    std::vector<FitLayer> layers;
+    std::vector<FitBlock> blocks;
+    std::vector<FitNode> nodes;
+    std::vector<double> energy;
+    /// Variance over energy around each block, which for rays of one weight is that weight: times
+    /// what a model expects there it is the variance of the block. Empty: errors are not known.
+    std::vector<double> spread;
+
+    bool has_errors() const { return !spread.empty(); }
+};
+
+/// The layers with theta_i below `last_theta` [rad] and the cells with theta_o below it, at least
+/// one row. Layers without any light are left out. Throws Error(InvalidInput, name) when none is
+/// left, or when Single is asked for and the bounce orders were not kept.
+FitData fit_data(const Measurement& measurement, FitLight light, double last_theta);
+
+/// A BSDF without error bars, averaged over the cells and incidences of `experiment`.
+FitData fit_data(const Bsdf& bsdf, const Experiment& experiment, double last_theta, int threads);
+
+/// Energies of the blocks by a model, as FitData::energy. A model of one channel counts for all of
+/// the data's; data of one channel get the mean of the model's. Throws Error(Usage, model's name)
+/// for other numbers of channels.
+std::vector<double> predict(const FitData& data, const Bsdf& model, int threads);
+
+}  // namespace asperity

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/fit/residuals.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace asperity::detail {
+namespace {
+
+/// Variance of block and channel k for a model that expects `energy` there; where it expects much
+/// less than there is, or less than a ray, its guess is not believed.
+double variance_of(const FitData& data, std::size_t k, double energy) {
+    const double ray = data.spread[k];
+    return ray * std::max({energy, 0.25 * data.energy[k], ray});
+}
+
+double shown(FitMetric metric, double v) {
+    switch (metric) {
+        case FitMetric::Log:
+            return std::log1p(v);
+        case FitMetric::CubeRoot:
+            return std::cbrt(v);
+        case FitMetric::Auto:
+        case FitMetric::Chi2:
+        case FitMetric::L2:
+            break;
+    }
+    return v;
+}
+
+}  // namespace
+
+Residuals::Residuals(const FitData& data, const FreeModel& model, FitMetric metric, int threads)
+    : data_(data), model_(model), metric_(metric), threads_(threads) {
+    weights_.assign(data.energy.size(), 0.0);
+    const auto channels = static_cast<std::size_t>(data.channels);
+    double total = 0;
+    for (const FitBlock& block : data.blocks) total += block.solid_angle;
+    for (std::size_t k = 0; k < weights_.size(); ++k) {
+        const double solid_angle = data.blocks[k / channels].solid_angle;
+        shown_.push_back(shown(metric, data.energy[k] / solid_angle));
+        weights_[k] = std::sqrt(solid_angle / (total * data.channels));
+    }
+    counts_ = metric == FitMetric::Chi2;
+}
+
+void Residuals::expect(const std::vector<double>& energy) {
+    if (metric_ != FitMetric::Chi2) return;
+    counts_ = false;
+    const auto channels = static_cast<std::size_t>(data_.channels);
+    for (std::size_t k = 0; k < weights_.size(); ++k) {
+        const double variance = variance_of(data_, k, energy[k]) * data_.channels;
+        weights_[k] =
+            variance > 0 ? data_.blocks[k / channels].solid_angle / std::sqrt(variance) : 0;
+    }
+}
+
+std::vector<double> Residuals::energy(const std::vector<double>& values) const {
+    return predict(data_, *model_.make(values), threads_);
+}
+
+std::vector<double> Residuals::at(const std::vector<double>& values) const {
+    return of_energy(energy(values));
+}
+
+std::vector<double> Residuals::of_energy(const std::vector<double>& energy) const {
+    const auto channels = static_cast<std::size_t>(data_.channels);
+    std::vector<double> residuals(energy.size());
+    for (std::size_t k = 0; k < energy.size(); ++k) {
+        if (counts_) {
+            const double ray = data_.spread[k];
+            if (!(ray > 0)) continue;
+            const double n = data_.energy[k] / ray, m = energy[k] / ray;
+            residuals[k] = (std::sqrt(4 * m + 1) - std::sqrt(n) - std::sqrt(n + 1)) /
+                           std::sqrt(data_.channels);
+            continue;
+        }
+        const double v = energy[k] / data_.blocks[k / channels].solid_angle;
+        residuals[k] = weights_[k] * (shown(metric_, v) - shown_[k]);
+    }
+    return residuals;
+}
+
+double chi2_per_dof(const FitData& data, const std::vector<double>& energy, std::size_t params) {
+    if (!data.has_errors() || data.blocks.size() <= params)
+        return std::numeric_limits<double>::quiet_NaN();
+    double sum = 0;
+    for (std::size_t k = 0; k < energy.size(); ++k) {
+        const double variance = variance_of(data, k, energy[k]);
+        const double difference = energy[k] - data.energy[k];
+        if (variance > 0) sum += difference * difference / (variance * data.channels);
+    }
+    return sum / static_cast<double>(data.blocks.size() - params);
+}
+
+FitData every_fourth(const FitData& data) {
+    FitData few = data;
+    few.blocks.clear();
+    few.energy.clear();
+    few.spread.clear();
+    const auto channels = static_cast<std::size_t>(data.channels);
+    for (std::size_t b = 0; b < data.blocks.size(); b += 4) {
+        few.blocks.push_back(data.blocks[b]);
+        for (std::size_t c = 0; c < channels; ++c) {
+            few.energy.push_back(data.energy[b * channels + c]);
+            if (data.has_errors()) few.spread.push_back(data.spread[b * channels + c]);
+        }
+    }
+    return few;
+}
+
+}  // namespace asperity::detail
