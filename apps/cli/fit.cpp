@@ -17,6 +17,7 @@
 #include <asperity/fit/verdict.h>
 #include <asperity/formats/bsdfs/bsdf_format.h>
 #include <asperity/formats/results/result_file.h>
+#include <asperity/pictures/residual_sheet.h>
 
 #include <fmt/format.h>
 
@@ -46,6 +47,8 @@ std::string closing() {
            "  asperity fit metal.asperity --model ggx --reflectance f0 --json\n"
            "  asperity fit paint.xml --model cook-torrance:k=ibl,ggx --metric log\n";
 }
+
+constexpr double kNoticed = 0.01;  ///< share of light worth a word
 
 std::string param_name(const FittedParam& p) {
     return p.entry < 0 ? p.key : fmt::format("{}[{}]", p.key, p.entry);
@@ -142,6 +145,9 @@ class FitVerb {
                                    ->default_str(row.default_text()));
         experiment_.add_to(app, {kLight, kDetector}, false);
         threads_.add_to(app);
+        png_ =
+            add_text(app, "--png", "FILE", "a picture of the nearest model over the data", kOutput)
+                ->default_str("none");
         app.add_flag("--json", json_, "print one JSON object")->group(kOutput);
         set_help(app, "fit FILE [options]", closing());
     }
@@ -149,6 +155,7 @@ class FitVerb {
     int run() {
         if (file_->count() == 0) throw Error(ErrorCode::Usage, "fit needs a file");
         const FitSettings settings = read_settings();
+        if (png_->count() > 0) check_output_file(text_of(png_));
         const int threads = Run(threads_.threads()).threads();
         FitData data = open(settings, threads);
         data.name = text_of(file_);
@@ -156,7 +163,8 @@ class FitVerb {
         if (json_)
             write_json(json_of_report(report, data));
         else
-            write_out(text_of_report(report, data));
+            write_out(text_of_report(report, data) + (hint_.empty() ? "" : hint_ + "\n"));
+        if (png_->count() > 0) write_picture(report.fits.front(), data);
         return 0;
     }
 
@@ -187,15 +195,37 @@ class FitVerb {
             throw Error(ErrorCode::Usage,
                         "a result file brings its own light and detector; these options are for "
                         "files of BSDFs");
-        return fit_data(io::load_measurement(text), settings.light, last);
+        const Measurement measurement = io::load_measurement(text);
+        const double multiple = multiple_share(measurement);
+        if (settings.light == FitLight::All && multiple > kNoticed)
+            hint_ = fmt::format(
+                "{:.3g} % of the light was reflected more than once, which microfacet models leave "
+                "out: --light single leaves it out of the data, too",
+                100 * multiple);
+        return fit_data(measurement, settings.light, last);
     }
 
-    static Json json_of_report(const FitReport& report, const FitData& data) {
+    void write_picture(const Fit& fit, const FitData& data) const {
+        std::vector<io::ResidualTile> tiles;
+        for (std::size_t k = 0; k < data.layers.size(); ++k) {
+            const FitLayer& layer = data.layers[k];
+            tiles.push_back({layer.theta_i, layer.phi_i, over_cells(data, data.energy, layer),
+                             over_cells(data, fit.energy, layer),
+                             fmt::format("L1 {:.3g} %", 100 * fit.layers[k].l1)});
+        }
+        io::write_residual_sheet(
+            data.detector, tiles, fit.spec,
+            fmt::format("fitted to {}: L1 of f cos {:.3g} %", data.name, 100 * fit.mean_l1),
+            text_of(png_));
+    }
+
+    Json json_of_report(const FitReport& report, const FitData& data) const {
         Json json = {{"file", data.name},
                      {"metric", fit_metric_name(report.metric)},
                      {"layers", data.layers.size()},
                      {"blocks", data.blocks.size()},
                      {"verdict", report.verdict},
+                     {"hint", hint_},
                      {"fits", Json::array()}};
         for (const Fit& fit : report.fits) json["fits"].push_back(json_of(fit));
         return json;
@@ -205,7 +235,8 @@ class FitVerb {
     ExperimentOptions experiment_;
     ThreadsOption threads_;
     std::vector<CLI::Option*> options_;
-    CLI::Option* file_ = nullptr;
+    CLI::Option *file_ = nullptr, *png_ = nullptr;
+    std::string hint_;
     bool json_ = false;
 };
 

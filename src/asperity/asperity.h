@@ -22,6 +22,10 @@
 #include <asperity/detector/detector.h>
 #include <asperity/detector/illumination.h>
 #include <asperity/detector/layer_sums.h>
+#include <asperity/fit/fit.h>
+#include <asperity/fit/fit_data.h>
+#include <asperity/fit/free_params.h>
+#include <asperity/fit/verdict.h>
 #include <asperity/formats/bsdfs/bsdf_format.h>
 #include <asperity/formats/bsdfs/export_source.h>
 #include <asperity/formats/bsdfs/fidelity.h>
@@ -62,6 +66,7 @@
 #include <asperity/pictures/colour_map.h>
 #include <asperity/pictures/layer_view.h>
 #include <asperity/pictures/pictures.h>
+#include <asperity/pictures/residual_sheet.h>
 #include <asperity/render/builtin_models.h>
 #include <asperity/render/camera.h>
 #include <asperity/render/camera_controller.h>

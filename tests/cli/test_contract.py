@@ -385,6 +385,51 @@ class Export(ProgramTest):
         self.assert_files("r.asperity")
 
 
+class Fit(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.passes("simulate", "--surface", "gaussian", *SMALL, "--layers", 3, "--fresnel",
+                    "conductor", "--material", "Cu", "-o", "r.asperity")
+
+    def test_table_and_specs(self):
+        text = self.passes("fit", "r.asperity", "--model", "ggx,beckmann,cook-torrance:metallic=1",
+                           "--png", "map.png")
+        self.assertIn("chi2/dof", text)
+        specs = [line.strip() for line in text.splitlines() if line.startswith("  ggx:")
+                 or line.startswith("  beckmann:") or line.startswith("  cook-torrance:")]
+        self.assertEqual(len(specs), 3)
+        for spec in specs:  # every verb takes them
+            self.passes("compare", "r.asperity", spec)
+        self.assertTrue(any("material=Cu" in spec for spec in specs))
+        self.assertTrue(all(side > 0 for side in png_size("map.png")))
+
+    def test_json_of_a_file(self):
+        self.passes("export", "ggx:alpha=0.5,f0=0.2/0.5/0.8", "-o", "x.bsdf", "--quiet")
+        found = json.loads(self.passes("fit", "x.bsdf", "--model", "ggx", "--json",
+                                       "--theta", "10,50", "--resolution", 32))
+        self.assertEqual(found["metric"], "cube-root")
+        (fit,) = found["fits"]
+        self.assertIsNone(fit["chi2_per_dof"])
+        values = {(p["name"], p["entry"]): p["value"] for p in fit["params"]}
+        self.assertAlmostEqual(values["alpha", None], 0.5, delta=0.01)
+        for entry, f0 in enumerate((0.2, 0.5, 0.8)):
+            self.assertAlmostEqual(values["f0", entry], f0, delta=0.01)
+
+    def test_refusals(self):
+        self.fails(2, "fit", saying="needs")
+        self.fails(4, "fit", "nosuch", saying="nosuch")
+        for options, words in ((["--model", "phong"], "phong"), (["--model", "ggx:k"], "ggx:k"),
+                               (["--metric", "l7"], "metric"), (["--free", "beta"], "free"),
+                               (["--theta", "30"], "its own light"), (["--max-theta", 0], "max-theta"),
+                               (["--model", "ggx:alpha=0.3"], "free"),
+                               (["--model", "ggx", "--png", "no/such/x.png"], "no/such")):
+            code = 4 if "--png" in options else 2
+            self.fails(code, "fit", "r.asperity", *options, saying=words)
+        self.fails(2, "fit", "ggx:alpha=0.3", "--light", "single", saying="light")
+        self.fails(2, "fit", "ggx:alpha=0.3", "--metric", "chi2", "--model", "ggx", saying="metric")
+        self.assert_files("r.asperity")
+
+
 class Selftest(ProgramTest):
     def test_all_pass(self):
         text = self.passes("selftest")

@@ -28,7 +28,7 @@ MAY_SEE = {
     "gonio": {"core", "params", "optics", "surface", "tracing", "detector"},
     "bsdf": {"core", "params", "optics", "surface"},
     "measured": {"core", "optics", "surface", "tracing", "gonio", "bsdf", "detector"},
-    "fit": {"core", "params", "optics", "gonio", "bsdf", "measured", "detector"},
+    "fit": {"core", "params", "optics", "surface", "gonio", "bsdf", "measured", "detector"},
     "render": {"core", "optics", "surface", "bsdf"},
     "formats": {"core"},
     "formats/exr": {"core", "formats"},

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace asperity {
 namespace {
@@ -132,6 +133,33 @@ std::vector<double> predict(const FitData& data, const Bsdf& model, int threads)
         }
     });
     return energy;
+}
+
+std::vector<double> over_cells(const FitData& data, const std::vector<double>& energy,
+                               const FitLayer& layer) {
+    std::vector<double> cells(static_cast<std::size_t>(data.detector.cells()),
+                              std::numeric_limits<double>::quiet_NaN());
+    const auto channels = static_cast<std::size_t>(data.channels);
+    for (std::size_t b = layer.first_block; b < layer.first_block + layer.blocks; ++b) {
+        const FitBlock& block = data.blocks[b];
+        double mean = 0;
+        for (std::size_t c = 0; c < channels; ++c)
+            mean += energy[b * channels + c] / (data.channels * block.solid_angle);
+        for (int row = block.row0; row < block.row1; ++row)
+            for (int column = block.column0; column < block.column1; ++column)
+                cells[static_cast<std::size_t>(row * data.detector.columns() + column)] = mean;
+    }
+    return cells;
+}
+
+double multiple_share(const Measurement& m) {
+    double once = 0, all = 0;
+    for (const Layer& layer : m.layers)
+        for (int channel = 0; channel < m.channels(); ++channel) {
+            once += m.albedo(layer, 0, channel);
+            all += m.albedo(layer, channel);
+        }
+    return all > 0 ? 1 - once / all : 0;
 }
 
 }  // namespace asperity

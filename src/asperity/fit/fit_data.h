@@ -74,4 +74,12 @@ FitData fit_data(const Bsdf& bsdf, const Experiment& experiment, double last_the
 /// for other numbers of channels.
 std::vector<double> predict(const FitData& data, const Bsdf& model, int threads);
 
+/// Mean of f cos(theta_o) [1/sr] over the block that a cell belongs to, channels averaged, a value
+/// a cell of the detector; NaN outside all blocks. `energy`: as FitData::energy.
+std::vector<double> over_cells(const FitData& data, const std::vector<double>& energy,
+                               const FitLayer& layer);
+
+/// Share of the light of `measurement`, all layers together, that was reflected more than once.
+double multiple_share(const Measurement& measurement);
+
 }  // namespace asperity

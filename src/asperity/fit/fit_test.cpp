@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/bsdf/spec.h>
+#include <asperity/core/energy.h>
+#include <asperity/core/error.h>
+#include <asperity/core/parallel.h>
+#include <asperity/fit/fit.h>
+#include <asperity/fit/verdict.h>
+#include <asperity/gonio/measure.h>
+#include <asperity/measured/compare.h>
+#include <asperity/surface/make_surface.h>
+#include <asperity/surface/surface_text.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <mutex>
+#include <random>
+
+namespace asperity {
+namespace {
+
+constexpr double kRays = 1e5;
+
+Experiment small_experiment() {
+    Experiment e;
+    e.illumination.theta_deg = {30};
+    e.detector.resolution = 32;
+    e.run.rays = static_cast<std::uint64_t>(kRays);
+    return e;
+}
+
+/// Counts `kRays` rays that fall into the cells as `energy` has it, and their errors as batches
+/// would show them, known to a sixth.
+Measurement counted(const Experiment& e, const std::vector<double>& energy, int channels,
+                    unsigned seed) {
+    Measurement m;
+    m.experiment = e;
+    m.experiment.run.bounces = 1;
+    m.detector = Detector(e.detector);
+    for (int c = 0; c < channels; ++c) m.channel_names.push_back("c" + std::to_string(c));
+    Layer layer;
+    layer.theta_i = radians(e.illumination.theta_deg[0]);
+    layer.rays = e.run.rays;
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    for (const double share : energy) {
+        const double rays =
+            share > 0 ? double(std::poisson_distribution<int>(share * kRays)(random)) : 0;
+        layer.energy.push_back(static_cast<std::uint64_t>(rays * double(kRayEnergy)));
+        layer.stderr_energy.push_back(
+            static_cast<float>(std::sqrt(rays) / kRays * (1 + normal(random) / 6)));
+    }
+    m.layers.push_back(layer);
+    return m;
+}
+
+struct Pulls {
+    std::vector<double> pulls, chi2;  ///< (found - true) / error, a parameter and trial
+    double share_within_3 = 0, mean = 0, mean_chi2 = 0;
+};
+
+/// Tables made of `truth` with noise, each fitted by `model`; `values`: of its free parameters.
+Pulls trials(const std::string& truth, const std::string& model, const std::vector<double>& values,
+             std::size_t count) {
+    const Experiment e = small_experiment();
+    const auto bsdf = parse_brdf_spec(truth);
+    const CellAverages exact =
+        average_over_cells(*bsdf, Detector(e.detector), radians(30), 0, false, 2);
+    Pulls result;
+    std::mutex mutex;
+    parallel_for(count, 2, [&](std::size_t trial) {
+        const Measurement m = counted(e, exact.energy, 1, static_cast<unsigned>(trial + 1));
+        const FitData data = fit_data(m, FitLight::All, radians(90));
+        const Fit fit =
+            fit_model(data, free_model(model, data, FitReflectance::Run, {}), FitMetric::Chi2, 1);
+        const std::lock_guard lock(mutex);
+        result.chi2.push_back(fit.chi2_per_dof);
+        for (std::size_t k = 0; k < values.size(); ++k)
+            result.pulls.push_back((fit.params[k].value - values[k]) / fit.params[k].error);
+    });
+    for (const double pull : result.pulls) {
+        result.share_within_3 += (std::abs(pull) <= 3) / double(result.pulls.size());
+        result.mean += pull / double(result.pulls.size());
+    }
+    for (const double chi2 : result.chi2) result.mean_chi2 += chi2 / double(result.chi2.size());
+    return result;
+}
+
+void expect_truth(const Pulls& pulls) {
+    EXPECT_GE(pulls.share_within_3, 0.95);
+    EXPECT_GT(pulls.mean_chi2, 0.9);
+    EXPECT_LT(pulls.mean_chi2, 1.1);
+}
+
+TEST(Fit, NoisyTablesGiveGgxBack) {
+    const Pulls pulls = trials("ggx:alpha=0.25", "ggx", {0.25}, 100);
+    expect_truth(pulls);
+    // Weights by what was counted would draw the fit to the low side of the noise.
+    EXPECT_LT(std::abs(pulls.mean), 0.4);
+}
+
+TEST(Fit, NoisyTablesGiveBeckmannBack) {
+    const Pulls pulls = trials("beckmann:alpha=0.4", "beckmann", {0.4}, 100);
+    expect_truth(pulls);
+    EXPECT_LT(std::abs(pulls.mean), 0.4);
+}
+
+TEST(Fit, NoisyTablesGiveStudentTBack) {
+    expect_truth(trials("student-t:alpha=0.3,gamma=3", "student-t", {0.3, 3}, 100));
+}
+
+TEST(Fit, GgxIsNoBeckmann) {
+    const Experiment e = small_experiment();
+    const CellAverages exact = average_over_cells(*parse_brdf_spec("ggx:alpha=0.3"),
+                                                  Detector(e.detector), radians(30), 0, false, 2);
+    const FitData data = fit_data(counted(e, exact.energy, 1, 7), FitLight::All, radians(90));
+    FitSettings settings;
+    settings.models = "beckmann,ggx";
+    const FitReport report = fit_models(data, settings, 2);
+    EXPECT_EQ(report.fits[0].text, "ggx");
+    EXPECT_EQ(grade(report.fits[0]), FitGrade::WithinErrors);
+    EXPECT_EQ(grade(report.fits[1]), FitGrade::No);
+    EXPECT_EQ(report.verdict.find("as good as the data: ggx"), 0u) << report.verdict;
+    EXPECT_NE(report.verdict.find("not beckmann"), std::string::npos) << report.verdict;
+    // What it says is what every verb reads.
+    EXPECT_EQ(parse_brdf_spec(report.fits[0].spec)->name(), report.fits[0].spec);
+}
+
+/// Light of a simulated surface, and the fits of two models.
+FitReport fits_to_surface(const std::string& surface, FitLight light) {
+    Experiment e;
+    e.illumination.theta_deg = {0, 25, 50};
+    e.illumination.isotropic = true;
+    e.detector.resolution = 48;
+    e.run.jitter = 8;
+    apply_surface_spec(e.surface, surface);
+    Run run(2);
+    const Measurement m = measure(make_surface(e.surface, run), e, run);
+    FitSettings settings;
+    settings.models = "ggx,beckmann";
+    return fit_models(fit_data(m, light, radians(85)), settings, 2);
+}
+
+TEST(Fit, SimulatedSurfacesFitTheirOwnModel) {
+    const FitReport gaussian =
+        fits_to_surface("gaussian:alpha=0.3,size=512,correlation-length=6", FitLight::Single);
+    EXPECT_EQ(gaussian.fits[0].text, "beckmann");
+    EXPECT_NEAR(gaussian.fits[0].params[0].value, 0.3, 0.009);
+    EXPECT_EQ(gaussian.verdict.find("close to the data"), 0u) << gaussian.verdict;
+    EXPECT_NE(gaussian.verdict.find("not ggx"), std::string::npos) << gaussian.verdict;
+
+    const FitReport ggx =
+        fits_to_surface("ggx:alpha=0.3,size=512,correlation-length=6", FitLight::Single);
+    EXPECT_EQ(ggx.fits[0].text, "ggx");
+    EXPECT_NEAR(ggx.fits[0].params[0].value, 0.3, 0.009);
+    EXPECT_NE(ggx.verdict.find("not beckmann"), std::string::npos) << ggx.verdict;
+
+    const FitReport noise = fits_to_surface("thesis:roughness=0.2,size=256", FitLight::All);
+    EXPECT_EQ(noise.verdict.find("no model of the list describes the data"), 0u) << noise.verdict;
+}
+
+TEST(Fit, ChannelsHaveTheirOwnReflectance) {
+    Experiment e = small_experiment();
+    e.illumination.theta_deg = {20, 60};
+    const auto bsdf = parse_brdf_spec("ggx:alpha=0.35,f0=0.2/0.5/0.8");
+    const FitData data = fit_data(*bsdf, e, radians(85), 2);
+    for (const FitMetric metric : {FitMetric::L2, FitMetric::Log, FitMetric::CubeRoot}) {
+        const Fit fit = fit_model(data, free_model("ggx", data, FitReflectance::F0, {}), metric, 2);
+        ASSERT_EQ(fit.params.size(), 4u);
+        EXPECT_NEAR(fit.params[0].value, 0.35, 2e-3);
+        EXPECT_NEAR(fit.params[1].value, 0.2, 5e-3);
+        EXPECT_NEAR(fit.params[2].value, 0.5, 5e-3);
+        EXPECT_NEAR(fit.params[3].value, 0.8, 5e-3);
+        EXPECT_EQ(fit.params[3].entry, 2);
+        EXPECT_LT(fit.mean_l1, 0.01);
+    }
+}
+
+TEST(Fit, ThreadsDoNotMatter) {
+    const Experiment e = small_experiment();
+    const FitData data = fit_data(*parse_brdf_spec("student-t:alpha=0.4,gamma=4"), e, 1.5, 1);
+    const FreeModel model = free_model("ggx", data, FitReflectance::F0, {});
+    const Fit one = fit_model(data, model, FitMetric::Log, 1);
+    const Fit three = fit_model(data, model, FitMetric::Log, 3);
+    EXPECT_EQ(one.spec, three.spec);
+    EXPECT_EQ(one.energy, three.energy);
+    EXPECT_EQ(one.params[0].error, three.params[0].error);
+}
+
+TEST(Fit, AnEndOfARangeIsSaid) {
+    Experiment e = small_experiment();
+    const FitData data = fit_data(*parse_brdf_spec("lambert:albedo=1"), e, 1.5, 2);
+    const Fit fit =
+        fit_model(data, free_model("lambert", data, FitReflectance::F0, {}), FitMetric::L2, 2);
+    EXPECT_TRUE(fit.params[0].at_end);
+    EXPECT_TRUE(std::isnan(fit.params[0].error));
+    EXPECT_NEAR(fit.params[0].value, 1, 1e-3);
+}
+
+TEST(Fit, BlocksHoldAllLight) {
+    const Experiment e = small_experiment();
+    const auto bsdf = parse_brdf_spec("ggx:alpha=0.05");
+    const FitData data = fit_data(*bsdf, e, radians(90), 2);
+    double energy = 0, solid_angle = 0, lambert = 0;
+    for (const double x : data.energy) energy += x;
+    for (const FitBlock& block : data.blocks) solid_angle += block.solid_angle;
+    for (const double x : predict(data, *parse_brdf_spec("lambert:albedo=1"), 2)) lambert += x;
+    const double albedo =
+        average_over_cells(*bsdf, data.detector, radians(30), 0, false, 2).albedo[0];
+    EXPECT_NEAR(energy, albedo, 1e-12);
+    EXPECT_NEAR(solid_angle, 2 * kPi, 1e-9);
+    EXPECT_NEAR(lambert, 1, 1e-12);
+    // A lobe of three degrees in cells of six: the nodes still find it.
+    double predicted = 0;
+    for (const double x : predict(data, *bsdf, 2)) predicted += x;
+    EXPECT_NEAR(predicted, albedo, 2e-3);
+}
+
+TEST(FreeParams, SplitsModelsAndTheirKeys) {
+    const std::vector<std::string> expected = {"ggx", "cook-torrance:metallic=1,k=ibl", "beckmann"};
+    EXPECT_EQ(split_models("ggx,cook-torrance:metallic=1,k=ibl,beckmann"), expected);
+}
+
+TEST(FreeParams, WhatIsGivenIsFixed) {
+    FitData data;
+    data.channels = 3;
+    const FreeModel model = free_model("cook-torrance:metallic=1", data, FitReflectance::F0, {});
+    ASSERT_EQ(model.free.size(), 4u);
+    EXPECT_EQ(model.free[0].key, "roughness");
+    EXPECT_EQ(model.free[1].key, "albedo");
+    EXPECT_EQ(model.free[3].entry, 2);
+    EXPECT_EQ(free_model("ggx:material=Au", data, FitReflectance::F0, {}).free.size(), 1u);
+    EXPECT_EQ(free_model("ggx", data, FitReflectance::Conductor, {"alpha_y"}).free.size(), 8u);
+}
+
+TEST(FreeParams, RefusesWhatCannotBeFree) {
+    FitData data;
+    const auto refused = [&](const std::string& text, const std::string& where,
+                             FitReflectance reflectance, const std::vector<std::string>& also) {
+        try {
+            free_model(text, data, reflectance, also);
+            ADD_FAILURE() << text;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.where(), where) << error.what();
+        }
+    };
+    refused("phong", "model", FitReflectance::F0, {});
+    refused("ggx:alpha", "ggx:alpha", FitReflectance::F0, {});
+    refused("ggx:alpha=0.1,material=Au", "model", FitReflectance::F0, {});
+    refused("ggx", "free", FitReflectance::F0, {"masking"});
+    refused("ggx", "reflectance", FitReflectance::Run, {});
+}
+
+}  // namespace
+}  // namespace asperity
