@@ -59,7 +59,7 @@ class OwnRival : public Rival {
             const std::uint64_t size = rays / batches + (b < rays % batches ? 1 : 0);
             lit->trace({kPattern, size, workload.seed, 0, static_cast<std::uint32_t>(b)}, *worker,
                        sums, run);
-            layer_sums += sums;
+            layer_sums.add(b, sums);
             sums.clear();
         }
         return tally_of(layer_of(light, layer_sums));

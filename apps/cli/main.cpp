@@ -30,7 +30,8 @@ constexpr const char* kProgramClosing =
     "  asperity render --model knot --brdf metal.asperity -o knot.png\n"
     "  asperity compare metal.asperity cook-torrance:roughness=0.55,metallic=1\n"
     "\n"
-    "Exit codes: 0 done, 2 wrong use, 3 bad input, 4 input/output, 5 memory, 130 stopped.\n";
+    "Exit codes: 0 done, 2 wrong use, 3 bad input, 4 input/output, 5 memory, 6 energy lost\n"
+    "(a fault of ours or of the machine), 130 stopped.\n";
 
 /// One line: an error never spreads over several.
 std::string one_line(std::string text) {
@@ -105,9 +106,9 @@ int run_program(int argc, char** argv) {
     program.allow_extras();
     program.require_subcommand(0, 1);
     const std::vector<Verb> verbs = {
-        add_surface(program),   add_simulate(program), add_info(program),  add_compare(program),
-        add_fit(program),       add_render(program),   add_sheet(program), add_export(program),
-        add_reference(program), add_selftest(program)};
+        add_surface(program), add_simulate(program), add_refine(program),    add_merge(program),
+        add_info(program),    add_compare(program),  add_fit(program),       add_render(program),
+        add_sheet(program),   add_export(program),   add_reference(program), add_selftest(program)};
     for (const Verb& verb : verbs) verb.app->allow_extras();
 
     try {

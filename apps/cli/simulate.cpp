@@ -1,28 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // asperity simulate: the main job. Surface and light in, layers of a BRDF out.
-#include "console.h"
 #include "help.h"
+#include "measuring.h"
 #include "options.h"
-#include "output_path.h"
-#include "progress.h"
-#include "report.h"
-#include "report_json.h"
-#include "stop.h"
 #include "verbs.h"
 
-#include <asperity/bsdf/spec.h>
 #include <asperity/core/error.h>
-#include <asperity/formats/heights/surface_files.h>
-#include <asperity/formats/results/result_file.h>
-#include <asperity/gonio/measure.h>
-#include <asperity/measured/compare.h>
-#include <asperity/optics/fresnel.h>
-#include <asperity/surface/surface_kinds.h>
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 #include <memory>
 
 namespace asperity::cli {
@@ -43,121 +27,54 @@ constexpr const char* kClosing =
     "  asperity simulate --surface heights.gsf --fresnel conductor --material Au --theta 0,30,60 "
     "\\\n"
     "      --rays 1000000 -o gold.asperity\n"
-    "  asperity simulate --config run.txt --seed 2 -o second.asperity\n";
-
-/// The thesis' model with F = 1 and roughness^2 = alpha, at most 1. A surface smoother than this
-/// has no lobe to compare with.
-constexpr double kLeastAlpha = 1e-3;
-
-std::string default_reference(const SurfaceSettings& settings, const SurfaceStatistics& figures) {
-    // GGX slopes have no finite mean square: the asked width is the surface's alpha.
-    const double alpha = surface_uses(settings.kind, "max-slope")
-                             ? std::sqrt(settings.alpha_x * settings.alpha_y)
-                             : figures.rms_gradient;
-    if (alpha < kLeastAlpha) return "none";
-    return fmt::format("cook-torrance:roughness={:.4g},metallic=1,albedo=1",
-                       std::min(1.0, std::sqrt(alpha)));
-}
+    "  asperity simulate --config run.txt --seed 2 -o second.asperity\n"
+    "  asperity simulate --config run.txt -o long.asperity --resume      (after a crash)\n"
+    "  asperity simulate --config run.txt -o part3.asperity --part 3/8   (then asperity merge)\n";
 
 class SimulateVerb {
   public:
     explicit SimulateVerb(CLI::App& app) {
         experiment_.add_to(app, {kSurface, kLight, kFacets, kDetector, kRun}, true);
-        threads_.add_to(app);
-        output_ = add_text(app, "-o,--output", "FILE", "save the result: counts, errors, settings",
-                           kOutput)
-                      ->default_str("only the table is shown");
-        reference_ = add_text(app, "--reference", "SPEC|none",
-                              "model for the L1 column, as compare takes it", kOutput)
-                         ->default_str("Cook-Torrance with roughness^2 = alpha");
-        app.add_flag("--json", json_, "print one JSON object, as info --json does")->group(kOutput);
-        app.add_flag("--quiet", quiet_, "no progress, no table")->group(kOutput);
+        measuring_.add_run(app);
+        part_ =
+            add_text(app, "--part", "K/N",
+                     "do share K of N of the work; asperity merge puts the shares together", kRun)
+                ->default_str("all of it");
+        measuring_.add_output(app, "only the table is shown");
         set_help(app, "simulate --surface SPEC|FILE [options] -o FILE", kClosing);
     }
 
     int run() {
-        Experiment experiment = experiment_.read();
-        check(experiment);
-        Run run(threads_.threads());
-        const Talk say(quiet_, json_);
-        const StopOnSignal stop(run);
-        ProgressBar progress(run, quiet_);
-
-        const Heightfield surface = io::load_surface(experiment.surface, run);
-        if (!experiment_.rays_given()) experiment.run.jitter = default_jitter(surface.cell_count());
-        MeasureListener listener;
-        listener.begun = [&](const Measurement& head) {
-            progress.clear();
-            describe(say, head, surface);
-        };
-        // A run that refines until it is accurate gives each layer the rays it needs.
-        if (experiment.run.until == 0) {
-            progress.count_layers(incidences(experiment.illumination).size());
-        }
-        const Measurement m = measure(surface, experiment, run, listener);
-        progress.clear();
-
-        if (m.stopped && m.layers.empty()) {
-            throw Error(ErrorCode::Stopped,
-                        "stopped before anything was complete, nothing is "
-                        "written");
-        }
-        const std::string checksum =
-            output_->count() > 0 ? io::save_measurement(m, text_of(output_)) : io::checksum(m);
-        tell(say, m, checksum, run);
-        return m.stopped ? static_cast<int>(ErrorCode::Stopped) : 0;
+        Measuring::Task task;
+        task.experiment = experiment_.read();
+        task.rays_given = experiment_.rays_given();
+        read_part(task);
+        const std::string path = measuring_.has_output() ? measuring_.output() : "";
+        measuring_.check(task.experiment, path);
+        return measuring_.measure(std::move(task), path);
     }
 
   private:
-    /// Refuses what would fail only after the work is done.
-    void check(const Experiment& experiment) const {
-        validate(experiment);
-        const Fresnel checked(experiment.optics);
-        const std::string reference = text_of(reference_, "none");
-        if (reference != "none") parse_brdf_spec(reference);
-        if (output_->count() > 0) check_output_file(text_of(output_));
-    }
-
-    void describe(const Talk& say, const Measurement& head, const Heightfield& surface) const {
-        if (quiet_) return;
-        const SurfaceSettings& settings = head.experiment.surface;
-        say("surface: " + surface_line(settings, head.surface, surface.nx, surface.ny) + "\n");
-        const std::string tiling = tiling_line(settings, surface);
-        if (!tiling.empty()) say("surface: " + tiling + "\n");
-    }
-
-    void tell(const Talk& say, const Measurement& m, const std::string& checksum,
-              const Run& run) const {
-        const bool written = output_->count() > 0;
-        if (json_) {
-            Json json = to_json(m, checksum);
-            json["file"] = nullptr;
-            if (written) json["file"] = text_of(output_);
-            write_json(json);
-        }
-        if (quiet_) return;
-        std::string reference = text_of(reference_);
-        if (reference.empty()) reference = default_reference(m.experiment.surface, m.surface);
-        std::optional<Comparison> comparison;
-        if (reference != "none") {
-            comparison = compare(m, *parse_brdf_spec(reference), run.threads());
-        }
-        say(layer_table(m, comparison));
-        if (comparison) {
-            say("L1: distance to " + reference +
-                "; noise: what it would be from the errors alone\n");
-        }
-        say(closing_lines(m));
-        if (written) {
-            say(fmt::format("wrote {}{}\n", text_of(output_), m.stopped ? " (partial)" : ""));
-        }
-        say("checksum " + checksum + "\n");
+    void read_part(Measuring::Task& task) const {
+        if (part_->count() == 0) return;
+        constexpr int kMostParts = 1000000;
+        const std::string text = text_of(part_);
+        const std::size_t slash = text.find('/');
+        if (slash == std::string::npos)
+            throw Error(ErrorCode::Usage, "'" + text + "' is not K/N, such as 3/8", "part");
+        task.parts = parse_count("part", text.substr(slash + 1), 1, kMostParts);
+        task.part = parse_count("part", text.substr(0, slash), 1, task.parts);
+        if (task.experiment.run.until > 0)
+            throw Error(ErrorCode::Usage,
+                        "no part can know when all of them are accurate: leave --until out, and "
+                        "refine what is merged",
+                        "part");
+        if (!measuring_.has_output()) throw Error(ErrorCode::Usage, "needs -o FILE", "part");
     }
 
     ExperimentOptions experiment_;
-    ThreadsOption threads_;
-    CLI::Option *output_ = nullptr, *reference_ = nullptr;
-    bool json_ = false, quiet_ = false;
+    Measuring measuring_;
+    CLI::Option* part_ = nullptr;
 };
 
 }  // namespace

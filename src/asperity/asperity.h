@@ -18,6 +18,7 @@
 #include <asperity/core/run.h>
 #include <asperity/core/vec.h>
 #include <asperity/core/version.h>
+#include <asperity/detector/batch_set.h>
 #include <asperity/detector/batch_sums.h>
 #include <asperity/detector/detector.h>
 #include <asperity/detector/illumination.h>

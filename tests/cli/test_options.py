@@ -118,7 +118,8 @@ class NearlyRight(ProgramTest):
                 self.fails(2, *arguments, saying=words)
 
     def test_help_teaches(self):
-        for verb in ("surface", "simulate", "info", "compare", "fit", "render", "export",
+        for verb in ("surface", "simulate", "refine", "merge", "info", "compare", "fit", "render",
+                     "export",
                      "selftest"):
             with self.subTest(verb):
                 text = self.passes(verb, "--help")

@@ -3,6 +3,7 @@
 
 #include <asperity/core/energy.h>
 #include <asperity/core/error.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -73,8 +74,9 @@ std::uint64_t LayerSums::scaled(std::uint64_t value, std::uint64_t of_rays) cons
         static_cast<std::int64_t>(product / static_cast<std::int64_t>(of_rays)));
 }
 
-LayerSums& LayerSums::operator+=(const BatchSums& b) {
-    ++batches;
+void LayerSums::add(std::uint64_t number, const BatchSums& b) {
+    if (!done.add({number, number + 1}))
+        throw Error(ErrorCode::Usage, fmt::format("batch {} is in the sums already", number));
     rays += b.rays;
     segments += b.segments;
     reflections += b.reflections;
@@ -94,7 +96,6 @@ LayerSums& LayerSums::operator+=(const BatchSums& b) {
         add.operator()<1>(b.energy_);
     else
         add.operator()<kRayEnergy>(b.count_);
-    return *this;
 }
 
 void LayerSums::add_spreads(const BatchSums& b) {
@@ -187,8 +188,9 @@ LayerSums& LayerSums::operator+=(const LayerSums& other) {
         whole.settle();
         return *this += whole;
     }
+    if (!done.add(other.done))
+        throw Error(ErrorCode::Usage, "sums that share a batch cannot be added");
     settle();
-    batches += other.batches;
     rays += other.rays;
     segments += other.segments;
     reflections += other.reflections;
@@ -208,6 +210,7 @@ LayerSums& LayerSums::operator+=(const LayerSums& other) {
 LayerSums::Estimate LayerSums::estimate(const Spread& s) const {
     // Standard error of the mean over K batches: sqrt((K sum e^2 - (sum e)^2) / (K - 1)) / K. The
     // difference is exact: of batches of e <= 2^64 / K it is less than 2^126
+    const std::uint64_t batches = this->batches();
     const auto sum = static_cast<std::int64_t>(s.sum);
     const bool negative = shape.elements > 1 && sum < 0;
     const std::uint64_t size = negative ? 0 - s.sum : s.sum;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <asperity/detector/batch_set.h>
 #include <asperity/detector/batch_sums.h>
 
 #include <cstddef>
@@ -11,8 +12,8 @@
 namespace asperity {
 
 /// What batches of one layer add up to: sums of their energies, and sums of their squares, from
-/// which the standard errors follow. A value: += adds a batch or the sums of other batches of the
-/// same layer, in any order, to the same bits.
+/// which the standard errors follow. A value: batches, and sums of other batches of the same layer,
+/// may be added in any order, to the same bits, each batch once.
 ///
 /// A batch may have fewer rays than the largest one; for the errors it is scaled to that one's.
 /// Energies of elements above 0 are signed, in two's complement.
@@ -31,7 +32,7 @@ struct LayerSums {
 
     SumShape shape;
     std::uint64_t largest_batch = 0;  ///< rays
-    std::uint64_t batches = 0;
+    BatchSet done;                    ///< the batches in here
     std::uint64_t rays = 0, segments = 0, reflections = 0, stuck = 0;
     std::vector<std::uint64_t> energy;             ///< [(order * places + place) * values + value]
     std::vector<std::uint64_t> escaped_by_bounce;  ///< [(side * values + value) * bounces + order]
@@ -45,9 +46,12 @@ struct LayerSums {
     std::vector<Spread> bounces;  ///< of escaped_by_bounce
     std::vector<Spread> albedo;   ///< of the sum over its orders: [side * values + value]
 
-    LayerSums& operator+=(const BatchSums& batch);
-    /// Settles both. Throws Error(Usage) if the shapes or the largest batches differ: they are not
-    /// of one layer.
+    std::uint64_t batches() const { return done.count(); }
+
+    /// Throws Error(Usage) if the batch of this number is in here already.
+    void add(std::uint64_t number, const BatchSums& batch);
+    /// Settles both. Throws Error(Usage) if the shapes or the largest batches differ, as they are
+    /// not of one layer, or if both have a batch in common: then nothing is added.
     LayerSums& operator+=(const LayerSums& other);
     /// Of settled sums.
     bool operator==(const LayerSums&) const = default;

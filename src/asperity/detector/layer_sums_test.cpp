@@ -40,7 +40,7 @@ BatchSums batch(std::uint64_t number, std::uint64_t rays) {
 
 LayerSums sum_of(const std::vector<std::uint64_t>& numbers) {
     LayerSums sums(kShape, 101);
-    for (const std::uint64_t n : numbers) sums += batch(n, n < 3 ? 101 : 100);
+    for (const std::uint64_t n : numbers) sums.add(n, batch(n, n < 3 ? 101 : 100));
     return sums;
 }
 
@@ -66,6 +66,15 @@ TEST(LayerSums, UnlikeLayersAreNotAdded) {
     EXPECT_THROW(sums += LayerSums(other, 101), Error);
 }
 
+TEST(LayerSums, ABatchIsAddedOnce) {
+    LayerSums sums = sum_of({0, 4, 7});
+    const LayerSums before = sums;
+    EXPECT_THROW(sums.add(4, batch(4, 100)), Error);
+    EXPECT_THROW(sums += sum_of({2, 7}), Error);
+    EXPECT_EQ(sums, before);
+    EXPECT_EQ(sums.batches(), 3u);
+}
+
 TEST(LayerSums, ErrorsAreThoseOfTheMeanOverBatches) {
     // Equal batches of 64 rays without weights: cell 5 gets 10, 20, 30, 40 of them
     const SumShape shape{.cells = 8, .bounces = 1};
@@ -76,7 +85,7 @@ TEST(LayerSums, ErrorsAreThoseOfTheMeanOverBatches) {
         b.escape(0, 1, cells.data(), paths.data(), n, {});
         b.lose_at_edge(paths.data(), 64 - n, {});
         b.rays = 64;
-        sums += b;
+        sums.add(n, b);
     }
     // Mean 25; sample variance 500 / 3; of the mean a quarter of it
     const LayerSums::Estimate e = sums.cell(5);
@@ -102,7 +111,7 @@ BatchSums spread_batch(const SumShape& shape, std::uint64_t rays) {
 TEST(LayerSums, SpreadLightAndSingleRaysAreOneSum) {
     const SumShape shape{.cells = 20, .orders = 2, .bounces = 2};
     LayerSums sums(shape, 10);
-    sums += spread_batch(shape, 10);
+    sums.add(0, spread_batch(shape, 10));
     EXPECT_FALSE(sums.settled());
     sums.settle();
     EXPECT_EQ(sums.energy[3], 2 * kRayEnergy);
@@ -125,17 +134,17 @@ TEST(LayerSums, TellTheSameWheneverTheyAreSettled) {
     const SumShape shape{.cells = 20, .orders = 2, .bounces = 2};
     LayerSums at_once(shape, 10), at_the_end(shape, 10), other(shape, 10);
     const std::vector<std::uint64_t> rays{10, 9, 10, 7, 10};
-    for (const std::uint64_t n : rays) {
-        at_once += spread_batch(shape, n);
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        at_once.add(k, spread_batch(shape, rays[k]));
         at_once.settle();
-        at_the_end += spread_batch(shape, n);
+        at_the_end.add(k, spread_batch(shape, rays[k]));
     }
     at_the_end.settle();
     EXPECT_TRUE(at_once == at_the_end);
     // And added to others that wait, too
     LayerSums apart(shape, 10);
     for (std::size_t k = rays.size(); k-- > 0;)
-        (k % 2 ? apart : other) += spread_batch(shape, rays[k]);
+        (k % 2 ? apart : other).add(k, spread_batch(shape, rays[k]));
     apart += other;
     EXPECT_TRUE(at_once == apart);
     EXPECT_EQ(at_once.cell(17).error, apart.cell(17).error);
@@ -152,7 +161,7 @@ TEST(LayerSums, ElementsOfPolarisedLightAreSigned) {
         BatchSums b(shape);
         b.escape(0, 1, cells.data(), paths.data(), 4, weights);
         b.rays = 4;
-        sums += b;
+        sums.add(sums.batches(), b);
     }
     EXPECT_EQ(sums.absorbed[0], 0u);
     EXPECT_NEAR(sums.cell(2).mean, 1, 1e-15);

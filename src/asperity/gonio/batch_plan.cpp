@@ -29,6 +29,16 @@ BatchPlan::BatchPlan(std::uint64_t cells, const RunSettings& run) {
     limit = run.max_rays > 0 ? run.max_rays : std::min(kMaxRaysPerLayer, 256 * rays);
 }
 
+BatchRange BatchPlan::round_of(std::uint64_t end) const {
+    BatchRange round{0, batches};
+    while (round.end < end) {
+        const std::uint64_t added = more(round.end, rays_before(round.end));
+        if (added == 0) break;
+        round = {round.end, round.end + added};
+    }
+    return round;
+}
+
 std::uint64_t BatchPlan::more(std::uint64_t so_far, std::uint64_t of_rays) const {
     return std::min(so_far, (limit - std::min(limit, of_rays)) / largest());
 }

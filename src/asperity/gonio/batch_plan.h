@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <asperity/detector/batch_set.h>
 #include <asperity/gonio/experiment.h>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace asperity {
@@ -22,6 +24,15 @@ struct BatchPlan {
         return rays / batches + (b % batches < rays % batches ? 1 : 0);
     }
     std::uint64_t largest() const { return rays_of(0); }
+    /// Rays of the batches before number b.
+    std::uint64_t rays_before(std::uint64_t b) const {
+        return b / batches * rays + b % batches * (rays / batches) +
+               std::min(b % batches, rays % batches);
+    }
+    /// A layer is looked at when a round of batches is done. The round that ends with the batches
+    /// before number `end`, or else the one that they are a part of; the first one for 0. Ends
+    /// before `end` if they are more than the limit allows.
+    BatchRange round_of(std::uint64_t end) const;
     /// Batches to add to so many, of so many rays, where they were not enough: as many again, or
     /// what the limit leaves room for.
     std::uint64_t more(std::uint64_t so_far, std::uint64_t of_rays) const;

@@ -5,6 +5,8 @@
 #include <asperity/optics/optics_params.h>
 #include <asperity/params/fields.h>
 #include <asperity/surface/surface_params.h>
+#include <asperity/tracing/engine.h>
+#include <fmt/format.h>
 
 namespace asperity {
 
@@ -46,6 +48,23 @@ Param<RunSettings> until_row() {
         s.until = errors.empty() ? 0 : errors.front();
         s.until_cells = errors.size() < 2 ? 0 : errors.back();
     };
+    return row;
+}
+
+/// Written where it is not the default, as files of older versions do not have it.
+Param<RunSettings> engine_row() {
+    Param<RunSettings> row;
+    row.info.name = "engine";
+    row.info.doc = "how rays are followed:";
+    row.info.written_unless_default = true;
+    row.info.type = ParamType::Choice;
+    for (const EngineKind& kind : engines()) {
+        row.info.choices.emplace_back(kind.name);
+        row.info.doc += fmt::format("{} {}, {}", row.info.choices.size() > 1 ? ";" : "", kind.name,
+                                    kind.sentence);
+    }
+    row.get = [](const RunSettings& s) { return ParamValue(s.engine); };
+    row.set = [](RunSettings& s, const ParamValue& v) { s.engine = std::get<std::string>(v); };
     return row;
 }
 
@@ -144,6 +163,7 @@ ParamTable<RunSettings> run_params() {
         field(&S::seed, {.name = "seed",
                          .metavar = "K",
                          .doc = "seed of the rays; same settings, same seed: same result"}),
+        engine_row(),
     };
     return grouped<S>("Rays", std::move(table));
 }

@@ -30,7 +30,7 @@ void apply_setting(Experiment& experiment, const std::string& key, const std::st
 std::vector<Setting> settings_of(const Experiment& experiment) {
     std::vector<Setting> settings;
     for (const Param<Experiment>& param : experiment_params())
-        if (!param.info.written_where_used || param.used(experiment))
+        if (param.written(experiment))
             settings.push_back({param.info.name, param.text(experiment), 0, {}});
     return settings;
 }

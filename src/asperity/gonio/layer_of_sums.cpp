@@ -48,7 +48,7 @@ Layer layer_of(const Incidence& light, const LayerSums& sums) {
     layer.segments = sums.segments;
     layer.reflections = sums.reflections;
     layer.stuck = sums.stuck;
-    layer.batches = static_cast<int>(sums.batches);
+    layer.batches = static_cast<int>(sums.batches());
     layer.absorbed = sums.absorbed;
     layer.truncated = sums.truncated;
     layer.edge = sums.edge;
@@ -63,6 +63,7 @@ Layer layer_of(const Incidence& light, const LayerSums& sums) {
 
     layer.stderr_energy.resize(sums.squares.size());
     LayerSpread& spread = layer.spread;
+    spread.done = sums.done;
     spread.largest_batch = sums.largest_batch;
     spread.squares.resize(sums.squares.size());
     spread.stretched.resize(sums.stretched.size());
@@ -83,10 +84,12 @@ Layer layer_of(const Incidence& light, const LayerSums& sums) {
 LayerSums sums_of(const Layer& layer, const SumShape& shape) {
     const LayerSpread& spread = layer.spread;
     if (spread.squares.empty())
-        throw Error(ErrorCode::InvalidInput,
-                    "it does not say what its errors come from (format 1): measure it anew");
+        throw Error(
+            ErrorCode::InvalidInput,
+            "it does not hold what its errors come from (results of older versions do not): "
+            "measure it anew");
     LayerSums sums(shape, spread.largest_batch);
-    sums.batches = static_cast<std::uint64_t>(layer.batches);
+    sums.done = spread.done;
     sums.rays = layer.rays;
     sums.segments = layer.segments;
     sums.reflections = layer.reflections;

@@ -7,7 +7,8 @@
 
 namespace asperity {
 
-/// The layer that sums of at least two batches make, with their standard errors.
+/// The layer that sums of at least one batch make, with their standard errors: infinite ones of a
+/// single batch.
 Layer layer_of(const Incidence& light, const LayerSums& sums);
 
 /// The sums that a layer of a result was made of, to which more may be added; the way back from

@@ -24,6 +24,13 @@ void LayerReport::complete(std::size_t k, Layer layer) {
     while (told_ < layers_.size() && layers_[told_]) tell();
 }
 
+bool LayerReport::copy(std::size_t k, Layer& layer) {
+    const std::scoped_lock lock(mutex_);
+    if (!layers_[k]) return false;
+    layer = *layers_[k];
+    return true;
+}
+
 std::vector<Layer> LayerReport::finish() {
     const std::scoped_lock lock(mutex_);
     while (told_ < layers_.size()) tell();

@@ -25,6 +25,8 @@ class LayerReport {
     void grown(std::size_t k, const std::function<bool(Layer&)>& write);
     /// Takes layer k, and tells the listener as soon as all before it are complete.
     void complete(std::size_t k, Layer layer);
+    /// Copies layer k, if it is complete.
+    bool copy(std::size_t k, Layer& layer);
     /// Nothing more will come: tells what is left, and hands the complete layers over in order.
     std::vector<Layer> finish();
 

@@ -5,8 +5,9 @@
 
 namespace asperity {
 
-LayerSchedule::LayerSchedule(std::size_t layers, std::uint64_t batches)
-    : layers_(layers, Layer{batches, 0, 0, false}), open_(layers) {}
+LayerSchedule::LayerSchedule(const std::vector<std::uint64_t>& batches) : open_(batches.size()) {
+    for (const std::uint64_t planned : batches) layers_.push_back({planned, 0, 0, false});
+}
 
 std::optional<LayerSchedule::Piece> LayerSchedule::next() {
     std::unique_lock lock(mutex_);

@@ -17,13 +17,13 @@ namespace asperity {
 /// batches before it is closed. All functions may be called from any thread.
 class LayerSchedule {
   public:
-    /// Each layer begins with so many batches, at least one.
-    LayerSchedule(std::size_t layers, std::uint64_t batches);
+    /// Layers begin with so many batches, each with at least one.
+    explicit LayerSchedule(const std::vector<std::uint64_t>& batches);
 
     struct Piece {
         enum class Kind { Prepare, Trace } kind;
         std::size_t layer;
-        std::uint64_t batch;  ///< to be traced
+        std::uint64_t batch;  ///< to be traced, counted from 0 in the order they are begun
     };
     /// What to do now; waits while nothing can be begun, but something may become possible.
     /// Nothing: all layers are closed, or somebody has given up. The caller does the piece, and

@@ -27,7 +27,7 @@ void expect_trace(const std::optional<Piece>& piece, std::size_t layer, std::uin
 }
 
 TEST(LayerSchedule, PreparesALayerWhileTheOneBeforeIsTraced) {
-    LayerSchedule schedule(3, 2);
+    LayerSchedule schedule({2, 2, 2});
     expect_prepare(schedule.next(), 0);
     schedule.prepared(0);
     expect_prepare(schedule.next(), 1);
@@ -54,7 +54,7 @@ TEST(LayerSchedule, PreparesALayerWhileTheOneBeforeIsTraced) {
 }
 
 TEST(LayerSchedule, AnExtendedLayerComesFirst) {
-    LayerSchedule schedule(2, 1);
+    LayerSchedule schedule({1, 1});
     expect_prepare(schedule.next(), 0);
     schedule.prepared(0);
     expect_prepare(schedule.next(), 1);
@@ -68,7 +68,7 @@ TEST(LayerSchedule, AnExtendedLayerComesFirst) {
 }
 
 TEST(LayerSchedule, NobodyWaitsForOneWhoGaveUp) {
-    LayerSchedule schedule(1, 1);
+    LayerSchedule schedule(std::vector<std::uint64_t>{1});
     expect_prepare(schedule.next(), 0);
     std::atomic<bool> answered = false;
     std::thread waiting([&] {
@@ -85,7 +85,7 @@ TEST(LayerSchedule, NobodyWaitsForOneWhoGaveUp) {
 TEST(LayerSchedule, ManyThreadsDoEachPieceOnce) {
     constexpr std::size_t kLayers = 40;
     constexpr std::uint64_t kBatches = 3;
-    LayerSchedule schedule(kLayers, kBatches);
+    LayerSchedule schedule(std::vector(kLayers, kBatches));
     std::mutex mutex;
     std::set<std::pair<std::size_t, std::uint64_t>> traced;
     std::set<std::size_t> prepared, extended;

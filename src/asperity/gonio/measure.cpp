@@ -5,49 +5,24 @@
 
 #include <asperity/core/error.h>
 #include <asperity/core/parallel.h>
-#include <asperity/core/version.h>
-#include <asperity/detector/layer_sums.h>
 #include <asperity/gonio/batch_plan.h>
-#include <asperity/gonio/layer_of_sums.h>
+#include <asperity/gonio/checkpoint_clock.h>
+#include <asperity/gonio/layer_in_work.h>
 #include <asperity/gonio/layer_report.h>
 #include <asperity/gonio/layer_schedule.h>
 #include <asperity/gonio/measurement_check.h>
+#include <asperity/gonio/measurement_head.h>
 #include <asperity/tracing/engine.h>
 #include <asperity/tracing/scale.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <atomic>
-#include <deque>
 #include <memory>
-#include <mutex>
-#include <optional>
-#include <vector>
+#include <utility>
 
 namespace asperity {
 
 namespace {
-
-/// A layer on its way.
-struct LayerInWork {
-    LayerInWork(const Incidence& incidence, std::uint32_t number)
-        : light(incidence), stream(number) {}
-
-    const Incidence light;
-    const std::uint32_t stream;           ///< of random numbers
-    std::unique_ptr<LitSurface> surface;  ///< in this light, once it is prepared
-    std::mutex mutex;                     ///< guards the sums
-    std::optional<LayerSums> sums;        ///< once a batch is done, until it is complete
-    std::vector<std::string> notes;       ///< for the reader of the result
-
-    /// What the sums hold; false if that is too little to tell errors.
-    bool write(Layer& layer) {
-        if (!sums || sums->batches < 2) return false;
-        sums->settle();
-        layer = layer_of(light, *sums);
-        return true;
-    }
-};
 
 /// Measures the layers, one after the other, with the same tools.
 class Gonioreflectometer {
@@ -61,60 +36,53 @@ class Gonioreflectometer {
           fresnel_(experiment.optics),
           detector_(experiment.detector),
           setup_{surface, fresnel_, detector_, experiment.run.bounces},
-          shape_(shape()),
+          head_(head_of(surface, experiment, run)),
+          shape_(head_.shape()),
           plan_(surface.cell_count(), experiment.run),
-          layers_(layers_to_fill(experiment.illumination)),
-          schedule_(layers_.size(), plan_.batches),
-          report_(listener, layers_.size()) {}
+          layers_(experiment, shape_, plan_),
+          report_(listener, layers_.size()),
+          checkpoint_clock_(listener.checkpoint_period) {}
 
-    Measurement measure() {
+    Measurement measure(MeasureScope scope) {
         run_.begin("preparing", surface_.cell_count());
-        Measurement m = describe();
-        const bool prepared = prepare(m);
+        plan(std::move(scope));
+        const bool prepared = prepare();
         run_.end();
-        if (prepared) fill_layers(m);
-        m.stopped = run_.stop_requested();
-        if (m.stopped) m.notes.emplace_back("stopped before it was complete");
-        return m;
+        if (prepared) fill_layers();
+        return finish();
     }
 
   private:
-    static std::deque<LayerInWork> layers_to_fill(const IlluminationSettings& settings) {
-        std::deque<LayerInWork> layers;
-        for (const Incidence& light : incidences(settings))
-            layers.emplace_back(light, static_cast<std::uint32_t>(layers.size()));
-        return layers;
-    }
-
-    Measurement describe() const {
-        Measurement m;
-        m.experiment = experiment_;
-        m.detector = detector_;
-        m.channel_names = fresnel_.channel_names();
-        m.surface_name = surface_.name;
-        if (!surface_.tiling.empty()) m.surface_name += ", " + surface_.tiling;
-        m.surface_nx = surface_.nx;
-        m.surface_ny = surface_.ny;
-        m.surface_dx = surface_.dx;
-        m.surface_dy = surface_.dy;
-        m.surface_isotropic = surface_.isotropic;
-        m.threads = run_.threads();
-        m.version = kVersion;
-        if (experiment_.illumination.isotropic && !surface_.isotropic)
-            m.notes.push_back(
-                "the surface does not declare itself isotropic: layers are averages over the "
-                "azimuth of the light");
-        return m;
+    /// Decides which batches are to do.
+    void plan(MeasureScope scope) {
+        head_.part = scope.part;
+        head_.parts = scope.parts;
+        if (scope.parts > 1)
+            head_.notes.push_back(
+                fmt::format("part {} of {}: a share of the rays, to be merged with the others",
+                            scope.part, scope.parts));
+        if (scope.so_far) {
+            require_same_experiment(*scope.so_far, head_, "result");
+            layers_.take(*scope.so_far);
+            head_.trace_seconds = scope.so_far->trace_seconds;
+        }
+        layers_.share_out(scope.part, scope.parts);
+        for (std::size_t k = 0; k < layers_.size(); ++k) {
+            if (scope.leave_out_so_far) layers_[k].leave_out();
+            if (layers_[k].to_do().empty())
+                complete(k);
+            else
+                open_.push_back(k);
+        }
     }
 
     /// Looks at the surface and builds the engine; false when it was stopped.
-    bool prepare(Measurement& m) {
+    bool prepare() {
         try {
-            m.surface = statistics(surface_, run_);
-            std::vector<double> angles;
-            for (const LayerInWork& layer : layers_) angles.push_back(layer.light.theta);
-            check_scale(surface_, m.surface.min_height, m.surface.max_height, angles);
-            if (listener_.begun) listener_.begun(m);
+            head_.surface = statistics(surface_, run_);
+            check_scale(surface_, head_.surface.min_height, head_.surface.max_height,
+                        layers_.theta_i());
+            if (listener_.begun) listener_.begun(head_);
             engine_ = find_engine(experiment_.run.engine).make(setup_, run_);
             return true;
         } catch (const Error& error) {
@@ -123,58 +91,53 @@ class Gonioreflectometer {
         }
     }
 
-    void fill_layers(Measurement& m) {
-        rays_ahead_ = plan_.rays * layers_.size();
+    void fill_layers() {
+        std::vector<std::uint64_t> batches;
+        for (const std::size_t k : open_) {
+            batches.push_back(layers_[k].to_do().size());
+            for (const std::uint64_t b : layers_[k].to_do()) rays_ahead_ += plan_.rays_of(b);
+        }
+        LayerSchedule schedule(batches);
         run_.begin("tracing", rays_ahead_);
         // All threads prepare the first layer; each of the others is prepared by one of them while
         // the one before is traced
-        if (const auto first = schedule_.next()) prepare_layer(first->layer, run_.threads());
+        if (const auto first = schedule.next())
+            prepare_layer(schedule, first->layer, run_.threads());
         const auto workers = static_cast<std::size_t>(run_.threads());
-        parallel_for(workers, run_.threads(), [&](std::size_t) { work(); });
+        parallel_for(workers, run_.threads(), [&](std::size_t) { work(schedule); });
         run_.end();
-        m.trace_seconds = run_.progress().seconds;
-
-        // Of a stopped run also what is there of the layers under way
-        for (std::size_t k = 0; k < layers_.size(); ++k) {
-            if (Layer layer; layers_[k].write(layer)) {
-                check_account(layer, shape_);
-                report_.complete(k, std::move(layer));
-            }
-            m.notes.insert(m.notes.end(), layers_[k].notes.begin(), layers_[k].notes.end());
-        }
-        m.layers = report_.finish();
+        head_.trace_seconds += run_.progress().seconds;
     }
 
     /// What each thread does until all layers are complete, or the run is stopped.
-    void work() {
+    void work(LayerSchedule& schedule) {
         // Nobody waits for a thread that has left
         struct Leave {
             LayerSchedule& schedule;
             ~Leave() { schedule.give_up(); }
-        } const leave{schedule_};
+        } const leave{schedule};
         const auto worker = engine_->worker();
         BatchSums sums(shape_);
         while (run_.keep_going()) {
-            const auto piece = schedule_.next();
+            const auto piece = schedule.next();
             if (!piece) return;
-            LayerInWork& layer = layers_[piece->layer];
+            const std::size_t k = open_[piece->layer];
             if (piece->kind == LayerSchedule::Piece::Kind::Prepare) {
-                prepare_layer(piece->layer, 1);
-            } else if (trace(layer, piece->batch, *worker, sums)) {
-                report_.grown(piece->layer, [&](Layer& grown) {
-                    const std::scoped_lock lock(layer.mutex);
-                    return layer.write(grown);
-                });
-                if (schedule_.traced(piece->layer)) extend_or_close(piece->layer);
+                prepare_layer(schedule, piece->layer, 1);
+            } else if (trace(layers_[k], layers_[k].to_do()[piece->batch], *worker, sums)) {
+                report_.grown(k, [&](Layer& grown) { return layers_[k].write(grown, 2); });
+                if (schedule.traced(piece->layer)) extend_or_close(schedule, piece->layer);
+                if (listener_.checkpoint) checkpoint_clock_.when_due([&] { checkpoint(); });
             }
         }
     }
 
     /// Works out what all batches of a layer have in common.
-    void prepare_layer(std::size_t k, int threads) {
-        layers_[k].surface =
-            engine_->light(layers_[k].light, experiment_.run.launch, plan_.rays, run_, threads);
-        schedule_.prepared(k);
+    void prepare_layer(LayerSchedule& schedule, std::size_t number, int threads) {
+        LayerInWork& layer = layers_[open_[number]];
+        layer.surface =
+            engine_->light(layer.light, experiment_.run.launch, plan_.rays, run_, threads);
+        schedule.prepared(number);
     }
 
     /// Traces a batch and adds it to its layer; false if the run was stopped before the end.
@@ -182,58 +145,57 @@ class Gonioreflectometer {
         const BatchRequest batch{experiment_.run.launch, plan_.rays_of(b), experiment_.run.seed,
                                  layer.stream, static_cast<std::uint32_t>(b)};
         if (!layer.surface->trace(batch, worker, sums, run_)) return false;
-        // Integers, so the order does not matter
-        {
-            const std::scoped_lock lock(layer.mutex);
-            if (!layer.sums) layer.sums.emplace(shape_, plan_.largest());
-            *layer.sums += sums;
-        }
+        layer.add(b, sums);
         sums.clear();
         return true;
     }
 
     /// All batches so far are done: refines the layer until its errors are small enough.
-    void extend_or_close(std::size_t k) {
-        LayerInWork& layer = layers_[k];
-        layer.sums->settle();
-        if (const std::uint64_t more = batches_to_add(layer)) {
+    void extend_or_close(LayerSchedule& schedule, std::size_t number) {
+        const std::size_t k = open_[number];
+        if (const std::uint64_t more = head_.parts == 1 ? layers_[k].refine() : 0) {
             run_.set_total(rays_ahead_ += more * plan_.largest());
-            schedule_.extend(k, more);
+            schedule.extend(number, more);
             return;
         }
-        Layer complete;
-        if (layer.write(complete)) {
-            check_account(complete, shape_);
-            report_.complete(k, std::move(complete));
+        complete(k);
+        schedule.close();
+    }
+
+    /// Hands the layer over, if it holds enough to tell errors: of a part whatever it holds.
+    void complete(std::size_t k) {
+        Layer layer;
+        if (layers_[k].write(layer, head_.parts > 1 ? 1 : 2)) {
+            check_account(layer, shape_);
+            report_.complete(k, std::move(layer));
         }
-        layer.sums.reset();
-        layer.surface.reset();
-        schedule_.close();
+        layers_[k].close();
     }
 
-    std::uint64_t batches_to_add(LayerInWork& layer) const {
-        if (experiment_.run.until <= 0 || accurate(*layer.sums)) return 0;
-        const std::uint64_t more = plan_.more(layer.sums->batches, layer.sums->rays);
-        if (more == 0)
-            layer.notes.push_back(
-                fmt::format("layer {} stopped refining at {} rays: the asked error was not reached",
-                            layer.light.number, layer.sums->rays));
-        return more;
+    /// The result; of a stopped run also what is there of the layers under way.
+    Measurement finish() {
+        for (std::size_t k = 0; k < layers_.size(); ++k) {
+            complete(k);
+            const auto& notes = layers_[k].notes;
+            head_.notes.insert(head_.notes.end(), notes.begin(), notes.end());
+        }
+        head_.layers = report_.finish();
+        head_.stopped = run_.stop_requested();
+        if (head_.stopped) head_.notes.emplace_back("stopped before it was complete");
+        return std::move(head_);
     }
 
-    bool accurate(const LayerSums& sums) const {
-        const RunSettings& run = experiment_.run;
-        const LayerSums::Errors errors = sums.relative_errors();
-        const double cells = run.until_cells > 0 ? run.until_cells : run.until;
-        return errors.albedo <= run.until && errors.cells <= cells;
-    }
-
-    SumShape shape() const {
-        Measurement m;
-        m.experiment = experiment_;
-        m.detector = detector_;
-        m.channel_names = fresnel_.channel_names();
-        return m.shape();
+    /// Shows all that is done so far, while other threads go on.
+    void checkpoint() {
+        Measurement so_far = head_;
+        so_far.stopped = true;
+        so_far.notes.emplace_back("a checkpoint: the run was not complete");
+        so_far.trace_seconds += run_.progress().seconds;
+        for (std::size_t k = 0; k < layers_.size(); ++k)
+            // A layer that is closed between both is seen by the second
+            if (Layer layer; layers_[k].write(layer, 1) || report_.copy(k, layer))
+                so_far.layers.push_back(std::move(layer));
+        listener_.checkpoint(so_far);
     }
 
     const Heightfield& surface_;
@@ -243,22 +205,26 @@ class Gonioreflectometer {
     const Fresnel fresnel_;
     const Detector detector_;
     const EngineSetup setup_;
+    Measurement head_;
     const SumShape shape_;
     std::unique_ptr<Engine> engine_;
     const BatchPlan plan_;
-    std::deque<LayerInWork> layers_;
-    LayerSchedule schedule_;
+    LayersInWork layers_;
+    std::vector<std::size_t> open_;  ///< layers in which something is to do
     LayerReport report_;
+    CheckpointClock checkpoint_clock_;
     std::atomic<std::uint64_t> rays_ahead_ = 0;
 };
 
 }  // namespace
 
 Measurement measure(const Heightfield& surface, const Experiment& experiment, Run& run,
-                    const MeasureListener& listener) {
+                    const MeasureListener& listener, MeasureScope scope) {
     validate(experiment);
     validate(surface, surface.name);
-    return Gonioreflectometer(surface, experiment, run, listener).measure();
+    if (scope.parts < 1 || scope.part < 1 || scope.part > scope.parts)
+        throw Error(ErrorCode::Usage, "a part is one of 1/N to N/N", "part");
+    return Gonioreflectometer(surface, experiment, run, listener).measure(std::move(scope));
 }
 
 }  // namespace asperity

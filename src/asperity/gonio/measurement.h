@@ -15,6 +15,7 @@ namespace asperity {
 /// What the errors of a layer come from, so that more batches can be added to it: sums of squares
 /// over batches, see LayerSums. Index order as in the Layer's arrays.
 struct LayerSpread {
+    BatchSet done;                           ///< the batches in the layer
     std::uint64_t largest_batch = 0;         ///< rays
     std::vector<LayerSums::Wide> squares;    ///< like stderr_energy; empty: not known
     std::vector<std::uint64_t> stretched;    ///< likewise, or empty
@@ -68,7 +69,10 @@ struct Measurement {
     std::vector<std::string> notes;  ///< what a reader should know, one sentence each
 
     // How it was run; no part of the checksum.
-    double trace_seconds = 0;  ///< wall-clock time of tracing, without pauses
+    std::string surface_digest;       ///< of the heights, asperity::digest
+    std::uint64_t surface_cells = 0;  ///< on which the plan of the batches depends
+    int part = 1, parts = 1;          ///< more than one: a share of the batches, see MeasureScope
+    double trace_seconds = 0;         ///< wall-clock time of tracing, without pauses
     int threads = 0;
     std::string version;
 

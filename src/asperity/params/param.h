@@ -45,10 +45,11 @@ struct ParamInfo {
     std::string otherwise =
         {};                  ///< what holds where nothing is set, if the default does not say it
     std::string users = {};  ///< who uses it, "gaussian, ggx"; empty: all
-    bool written_where_used = false;   ///< in files only where it counts: newer than old files
-    bool percent = false;              ///< numbers may end in '%'
-    std::size_t most = SIZE_MAX;       ///< entries of a list
-    ParamType type = ParamType::Text;  ///< the makers of rows below set it
+    bool written_where_used = false;      ///< in files only where it counts: newer than old files
+    bool written_unless_default = false;  ///< in files only where it is not the default: likewise
+    bool percent = false;                 ///< numbers may end in '%'
+    std::size_t most = SIZE_MAX;          ///< entries of a list
+    ParamType type = ParamType::Text;     ///< the makers of rows below set it
 };
 
 // Text, value and range. Each throws Error(Usage, message, info.name).
@@ -80,6 +81,11 @@ struct Param {
     std::function<std::string(const Settings&)> unused = {};
 
     bool used(const Settings& settings) const { return !unused || unused(settings).empty(); }
+    /// Whether files hold it.
+    bool written(const Settings& settings) const {
+        return !(info.written_where_used && !used(settings)) &&
+               !(info.written_unless_default && text(settings) == default_text());
+    }
     std::string text(const Settings& settings) const { return format(info, get(settings)); }
     std::string default_text() const { return text(Settings{}); }
     /// Reads and checks. Throws Error(Usage, name).

@@ -30,7 +30,7 @@ template <typename Settings>
 std::string settings_text(const ParamTable<Settings>& table, const Settings& settings) {
     std::string text, group;
     for (const Param<Settings>& param : table) {
-        if (param.info.written_where_used && !param.used(settings)) continue;
+        if (!param.written(settings)) continue;
         if (group != param.info.group) text += "# " + (group = param.info.group) + "\n";
         text += setting_line(param.info.name, param.text(settings));
     }

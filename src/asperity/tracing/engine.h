@@ -11,9 +11,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
-#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace asperity {
 
@@ -60,15 +62,18 @@ class Engine {
 
 /// A row of the list of engines.
 struct EngineKind {
-    std::string_view name;      ///< as the setting `engine` says
-    std::string_view sentence;  ///< for those who choose
+    std::string name;      ///< as the setting `engine` says
+    std::string sentence;  ///< for those who choose
     /// Calls run.advance() with cells, surface.cell_count() of them; throws Error(Stopped).
-    std::unique_ptr<Engine> (*make)(const EngineSetup& setup, Run& run);
+    std::function<std::unique_ptr<Engine>(const EngineSetup& setup, Run& run)> make;
 };
 
-/// All engines; the first one is the default.
-std::span<const EngineKind> engines();
+/// All engines, those of programs that use the library included; the first one is the default.
+std::vector<EngineKind> engines();
 /// Throws Error(Usage, "engine") for a name that none has.
-const EngineKind& find_engine(std::string_view name);
+EngineKind find_engine(std::string_view name);
+/// Adds a row to the list: from then on settings may name it. Throws Error(Usage, name) for a name
+/// that is empty or taken, or without a function.
+void add_engine(EngineKind kind);
 
 }  // namespace asperity

@@ -4,6 +4,9 @@
 #include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/experiment_text.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <utility>
 
 namespace asperity::io {
@@ -13,6 +16,9 @@ constexpr const char* kDescription =
     "Asperity: simulated reflection of a rough surface. energy[layer, order, channel, row, column] "
     "counts in 2^-32 of one of the `rays` launched; row 0 touches the normal, rows end at "
     "theta_edges [rad], columns divide the azimuth equally from 0 on.";
+
+static_assert(std::endian::native == std::endian::little,
+              "sums of squares are stored low word first");
 
 std::uint64_t extent(int count) {
     return static_cast<std::uint64_t>(count);
@@ -28,6 +34,7 @@ ResultFields::ResultFields(const Measurement& measurement) : measurement_(measur
     add_text("channel_names", channel_names_json(measurement));
     add_text("surface", surface_json(measurement));
     add_layers();
+    add_spreads();
     add_text("provenance", provenance_json(measurement));
     add_checksums();
 }
@@ -64,12 +71,87 @@ void ResultFields::add_layers() {
                &Layer::stderr_albedo_by_bounce);
 }
 
-// The last field before the checksums, "provenance", may differ between equal experiments and stays
-// out of the one checksum.
+void ResultFields::add_spreads() {
+    const auto one = std::uint32_t{1};
+    add_values<std::uint32_t>("sides", TensorType::U32, {1}, std::span(&one, 1));
+    add_values<std::uint32_t>("elements", TensorType::U32, {1}, std::span(&one, 1));
+    const std::vector<Layer>& layers = measurement_.layers;
+    if (!std::all_of(layers.begin(), layers.end(),
+                     [](const Layer& layer) { return !layer.spread.squares.empty(); }))
+        return;
+    const std::uint64_t channels = extent(measurement_.channels());
+    const std::uint64_t rows = extent(measurement_.detector.rows());
+    const std::uint64_t columns = extent(measurement_.detector.columns());
+
+    std::vector<std::uint64_t> largest, done;
+    bool stretched = false;
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+        const LayerSpread& spread = layers[k].spread;
+        largest.push_back(spread.largest_batch);
+        for (const BatchRange& r : spread.done.ranges())
+            done.insert(done.end(), {std::uint64_t{k}, r.begin, r.end});
+        stretched = stretched || !spread.stretched.empty();
+    }
+    add_values<std::uint64_t>("largest_batch", TensorType::U64, {largest.size()}, largest);
+    add_values<std::uint64_t>("batches_done", TensorType::U64, {done.size() / 3, 3}, done);
+
+    TensorBlock squares = {
+        "energy_squares", TensorType::U64, {layers.size(), channels, rows, columns, 2}, {}};
+    for (const Layer& layer : layers)
+        squares.parts.push_back(std::as_bytes(std::span(layer.spread.squares)));
+    blocks_.push_back(std::move(squares));
+    if (stretched) {
+        TensorBlock block = {
+            "energy_stretched", TensorType::U64, {layers.size(), channels, rows, columns}, {}};
+        // A layer whose batches are all alike has nothing to add
+        const auto& none = store_.emplace_back(channels * rows * columns * sizeof(std::uint64_t));
+        for (const Layer& layer : layers)
+            block.parts.push_back(layer.spread.stretched.empty()
+                                      ? std::span<const std::byte>(none)
+                                      : std::as_bytes(std::span(layer.spread.stretched)));
+        blocks_.push_back(std::move(block));
+    }
+    add_wide("escaped_by_bounce_spread", {channels, extent(measurement_.bounces())},
+             &LayerSpread::bounces);
+    add_wide("escaped_spread", {channels}, &LayerSpread::albedo);
+}
+
+void ResultFields::add_wide(const char* name, std::vector<std::uint64_t> shape,
+                            std::vector<LayerSums::Spread> LayerSpread::*member) {
+    std::vector<std::uint64_t> words;
+    for (const Layer& layer : measurement_.layers)
+        for (const LayerSums::Spread& s : layer.spread.*member)
+            words.insert(words.end(), {s.sum, static_cast<std::uint64_t>(s.squares),
+                                       static_cast<std::uint64_t>(s.squares >> 64)});
+    shape.insert(shape.begin(), measurement_.layers.size());
+    shape.push_back(3);
+    add_values<std::uint64_t>(name, TensorType::U64, std::move(shape), words);
+}
+
+bool in_checksum(std::string_view name) {
+    constexpr std::array<std::string_view, 9> kLeftOut = {
+        "provenance",       "sides",          "elements",
+        "largest_batch",    "batches_done",   "energy_squares",
+        "energy_stretched", "escaped_spread", "escaped_by_bounce_spread"};
+    return std::find(kLeftOut.begin(), kLeftOut.end(), name) == kLeftOut.end();
+}
+
+Digest format_digest() {
+    constexpr std::uint32_t kFirst = 1;
+    constexpr std::uint64_t kShape = 1;
+    FieldDigest digest("format", TensorType::U32, std::span(&kShape, 1));
+    digest.update(std::as_bytes(std::span(&kFirst, 1)));
+    return digest.finish();
+}
+
 void ResultFields::add_checksums() {
-    std::vector<Digest> digests;
-    for (const TensorBlock& block : blocks_) digests.push_back(digest_of(block));
-    checksum_ = checksum_of(std::span(digests).first(digests.size() - 1));
+    std::vector<Digest> digests, counted;
+    for (const TensorBlock& block : blocks_) {
+        digests.push_back(digest_of(block));
+        if (in_checksum(block.name))
+            counted.push_back(block.name == "format" ? format_digest() : digests.back());
+    }
+    checksum_ = checksum_of(counted);
     std::vector<std::uint64_t> words;
     for (const Digest& digest : digests) words.insert(words.end(), digest.begin(), digest.end());
     add_values<std::uint64_t>("field_checksums", TensorType::U64, {digests.size(), 2}, words);

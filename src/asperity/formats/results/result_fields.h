@@ -8,13 +8,20 @@
 #include <deque>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace asperity::io {
 
+/// Whether a field counts in the checksum of the whole. Those that came with format 2 do not, nor
+/// "provenance", and "format" counts as 1: so equal results have equal checksums in all formats.
+bool in_checksum(std::string_view name);
+/// What stands for "format" there.
+Digest format_digest();
+
 /// A Measurement as fields of a container: first those that depend on nothing but the experiment,
-/// then "provenance" (how it was run), "field_checksums" (one row per field before it) and
-/// "checksum". docs/formats.md lists them all.
+/// then what more batches can be added to, "provenance" (how it was run), "field_checksums" (one
+/// row per field before it) and "checksum". docs/formats.md lists them all.
 ///
 /// The large arrays are not copied: the measurement must outlive this object.
 class ResultFields {
@@ -39,6 +46,10 @@ class ResultFields {
     void add_values(const char* name, TensorType type, std::vector<std::uint64_t> shape,
                     std::span<const T> values);
     void add_layers();
+    /// What the errors come from, if all layers tell.
+    void add_spreads();
+    void add_wide(const char* name, std::vector<std::uint64_t> shape,
+                  std::vector<LayerSums::Spread> LayerSpread::*member);
     void add_checksums();
 
     const Measurement& measurement_;

@@ -7,6 +7,7 @@
 #include <asperity/gonio/measurement_check.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 
@@ -25,12 +26,15 @@ class ResultReader {
         check_checksums();
         read_settings();
         read_layers();
+        read_spreads();
         if (const std::string why = contradiction(result_); !why.empty())
             file_.fail(file_.find("energy")->offset, why);
         return std::move(result_);
     }
 
   private:
+    using Shape = std::vector<std::uint64_t>;
+
     void check_format() const {
         const TensorField* field = file_.find("format");
         if (field == nullptr) file_.fail(0, "a tensor file, but no result of Asperity");
@@ -58,7 +62,8 @@ class ResultReader {
                     fields[k].offset,
                     fmt::format("field '{}' is damaged: its {} bytes do not fit its checksum",
                                 fields[k].name, fields[k].bytes));
-            if (fields[k].name != "provenance") stable.push_back(digest);
+            if (in_checksum(fields[k].name))
+                stable.push_back(fields[k].name == "format" ? format_digest() : digest);
         }
         if (text("checksum") != checksum_of(stable))
             file_.fail(fields.back().offset, "the checksum of the whole does not fit");
@@ -116,7 +121,49 @@ class ResultReader {
                     &Layer::stderr_albedo_by_bounce);
     }
 
-    using Shape = std::vector<std::uint64_t>;
+    void read_spreads() {
+        for (const char* axis : {"sides", "elements"})
+            if (const TensorField* found = file_.find(axis);
+                found && values<std::uint32_t>(axis, TensorType::U32, {1}).front() != 1)
+                file_.fail(found->offset, fmt::format("more {} than one are not known here", axis));
+        if (file_.find("energy_squares") == nullptr) return;
+        const std::uint64_t count = result_.layers.size(), channels = extent(result_.channels());
+        const Shape cells = {count, channels, extent(result_.detector.rows()),
+                             extent(result_.detector.columns())};
+        read_parts(
+            "energy_squares", TensorType::U64, {cells[0], cells[1], cells[2], cells[3], 2},
+            [](Layer & layer) -> auto& { return layer.spread.squares; });
+        if (file_.find("energy_stretched") != nullptr)
+            read_parts(
+                "energy_stretched", TensorType::U64, cells,
+                [](Layer & layer) -> auto& { return layer.spread.stretched; });
+        const auto largest = values<std::uint64_t>("largest_batch", TensorType::U64, {count});
+        for (std::size_t k = 0; k < largest.size(); ++k)
+            result_.layers[k].spread.largest_batch = largest[k];
+        read_done();
+        read_wide("escaped_by_bounce_spread", {count, channels, extent(result_.bounces()), 3},
+                  &LayerSpread::bounces);
+        read_wide("escaped_spread", {count, channels, 3}, &LayerSpread::albedo);
+    }
+
+    void read_done() {
+        const TensorField& found = file_.require("batches_done", TensorType::U64, 2);
+        const auto rows =
+            values<std::uint64_t>("batches_done", TensorType::U64, {found.shape[0], 3});
+        for (std::size_t k = 0; k < rows.size(); k += 3)
+            if (rows[k] >= result_.layers.size() ||
+                !result_.layers[rows[k]].spread.done.add({rows[k + 1], rows[k + 2]}))
+                file_.fail(found.offset, "field 'batches_done' contradicts itself");
+    }
+
+    void read_wide(const char* name, const Shape& shape,
+                   std::vector<LayerSums::Spread> LayerSpread::*member) {
+        const auto words = values<std::uint64_t>(name, TensorType::U64, shape);
+        const std::size_t each = words.size() / std::max<std::size_t>(result_.layers.size(), 1);
+        for (std::size_t k = 0; k < words.size(); k += 3)
+            (result_.layers[k / each].spread.*member)
+                .push_back({words[k], (LayerSums::Wide{words[k + 2]} << 64) | words[k + 1]});
+    }
 
     static std::uint64_t extent(int count) { return static_cast<std::uint64_t>(count); }
 
@@ -169,12 +216,18 @@ class ResultReader {
     template <typename T>
     void read_arrays(const char* name, TensorType type, const Shape& shape,
                      std::vector<T> Layer::*member) {
+        read_parts(
+            name, type, shape, [&](Layer & layer) -> auto& { return layer.*member; });
+    }
+
+    template <typename Part>
+    void read_parts(const char* name, TensorType type, const Shape& shape, Part part) {
         const TensorField& found = field(name, type, shape);
         const std::size_t layers = result_.layers.size();
         for (std::size_t k = 0; k < layers; ++k) {
             const std::uint64_t bytes = found.bytes / layers;
-            std::vector<T>& numbers = result_.layers[k].*member;
-            numbers.resize(static_cast<std::size_t>(bytes) / sizeof(T));
+            auto& numbers = part(result_.layers[k]);
+            numbers.resize(static_cast<std::size_t>(bytes) / sizeof(numbers[0]));
             file_.read(found, k * bytes, std::as_writable_bytes(std::span(numbers)));
         }
     }

@@ -8,7 +8,7 @@
 namespace asperity::io {
 
 /// Version of the result format (docs/formats.md). Readers refuse a higher one.
-inline constexpr int kResultFormat = 1;
+inline constexpr int kResultFormat = 2;
 
 /// Writes a result file (tensor container, docs/formats.md): to a temporary name beside `path`,
 /// synced, renamed over it; on any failure `path` is as it was and no temporary file is left.
@@ -23,7 +23,9 @@ Measurement load_measurement(const std::string& path);
 bool looks_like_result(const std::string& path);
 
 /// 32 hexadecimal digits over everything that must not depend on threads or time: experiment,
-/// surface, layers. Equal experiments give equal checksums on any number of threads.
+/// surface, layers. Equal experiments give equal checksums on any number of threads, and the same
+/// in every format: what later formats add to the file follows from these, or is how they came
+/// about.
 std::string checksum(const Measurement& measurement);
 
 }  // namespace asperity::io

@@ -58,6 +58,22 @@ Layer random_layer(const Measurement& m, const Incidence& light, std::mt19937_64
     return layer;
 }
 
+// What its errors would come from; no less random.
+void add_spread(const Measurement& m, Layer& layer, bool stretched, std::mt19937_64& engine) {
+    const auto wide = [&] { return (LayerSums::Wide{engine()} << 64) | engine(); };
+    LayerSpread& spread = layer.spread;
+    spread.largest_batch = engine();
+    spread.done.add({2, 5});
+    spread.done.add({11, 15});
+    for (std::size_t k = 0; k < layer.stderr_energy.size(); ++k) {
+        spread.squares.push_back(wide());
+        if (stretched) spread.stretched.push_back(engine() | 1);
+    }
+    for (std::size_t k = 0; k < layer.escaped_by_bounce.size(); ++k)
+        spread.bounces.push_back({engine(), wide()});
+    for (int c = 0; c < m.channels(); ++c) spread.albedo.push_back({engine(), wide()});
+}
+
 Measurement small_measurement(unsigned seed = 1, int layers = 2) {
     std::mt19937_64 engine(seed);
     Measurement m;
@@ -122,6 +138,66 @@ TEST(ResultFile, RoundTripsEverything) {
         EXPECT_EQ(checksum(read), checksum(m));
     }
     EXPECT_EQ(folder.files(), 1);
+}
+
+TEST(ResultFile, KeepsWhatTheErrorsComeFrom) {
+    const TemporaryFolder folder;
+    std::mt19937_64 engine(5);
+    for (const bool stretched : {false, true}) {
+        Measurement m = small_measurement();
+        for (Layer& layer : m.layers) add_spread(m, layer, stretched, engine);
+        m.part = 2, m.parts = 7, m.surface_digest = "abc", m.surface_cells = 12345;
+        save_measurement(m, folder / "r.asperity");
+        const Measurement read = load_measurement(folder / "r.asperity");
+        expect_equal(read, m);
+        for (std::size_t k = 0; k < m.layers.size(); ++k) {
+            const LayerSpread &a = m.layers[k].spread, &b = read.layers[k].spread;
+            EXPECT_EQ(a.largest_batch, b.largest_batch);
+            EXPECT_TRUE(a.done == b.done && a.squares == b.squares && a.stretched == b.stretched &&
+                        a.bounces == b.bounces && a.albedo == b.albedo);
+        }
+        EXPECT_EQ(std::tie(read.part, read.parts, read.surface_digest, read.surface_cells),
+                  std::tie(m.part, m.parts, m.surface_digest, m.surface_cells));
+        // The checksum is that of the result, with or without
+        EXPECT_EQ(checksum(read), checksum(small_measurement()));
+    }
+}
+
+// A file of format 1, as older versions wrote it.
+TEST(ResultFile, OpensFilesOfTheFirstFormat) {
+    const TemporaryFolder folder;
+    const Measurement m = small_measurement();
+    const ResultFields fields(m);
+    const std::uint32_t first = 1;
+    const std::string provenance =
+        R"({"version": "0.1.0", "threads": 3, "trace_seconds": 0.1, "stopped": true, "notes": )"
+        R"(["One.", "Two, with a \\."]})";
+    std::vector<TensorBlock> blocks;
+    std::vector<Digest> digests;
+    for (const TensorBlock& block : fields.blocks()) {
+        TensorBlock old = block;
+        if (block.name == "format") old.parts = {std::as_bytes(std::span(&first, 1))};
+        if (block.name == "provenance")
+            old = {"provenance",
+                   TensorType::U8,
+                   {provenance.size()},
+                   {std::as_bytes(std::span(provenance))}};
+        if (!in_checksum(block.name) && block.name != "provenance") continue;
+        if (block.name == "field_checksums" || block.name == "checksum") continue;
+        blocks.push_back(old);
+        digests.push_back(digest_of(old));
+    }
+    const std::string sum = checksum_of(std::span(digests).first(digests.size() - 1));
+    blocks.push_back({"field_checksums",
+                      TensorType::U64,
+                      {digests.size(), 2},
+                      {std::as_bytes(std::span(digests))}});
+    blocks.push_back({"checksum", TensorType::U8, {32}, {std::as_bytes(std::span(sum))}});
+    write_tensor_file(folder / "r.asperity", blocks);
+    const Measurement read = load_measurement(folder / "r.asperity");
+    expect_equal(read, m);
+    EXPECT_EQ(sum, checksum(m));
+    EXPECT_TRUE(read.layers[0].spread.squares.empty());
 }
 
 TEST(ResultFile, ChecksumKnowsTheResultAndNotTheRun) {
@@ -250,9 +326,13 @@ TEST(ResultFile, RefusesWellFormedNonsense) {
         for (TensorBlock& block : blocks)
             if (block.name == name)
                 block = {name, type, shape, {std::as_bytes(std::span(content))}};
-        std::vector<Digest> digests;
-        for (const TensorBlock& block : blocks) digests.push_back(digest_of(block));
-        const std::string sum = checksum_of(std::span(digests).first(digests.size() - 1));
+        std::vector<Digest> digests, counted;
+        for (const TensorBlock& block : blocks) {
+            digests.push_back(digest_of(block));
+            if (in_checksum(block.name))
+                counted.push_back(block.name == "format" ? format_digest() : digests.back());
+        }
+        const std::string sum = checksum_of(counted);
         blocks.push_back({"field_checksums",
                           TensorType::U64,
                           {digests.size(), 2},
@@ -286,7 +366,9 @@ TEST(ResultFile, RefusesWellFormedNonsense) {
     refused("stuck", std::string(16, '\xff'), TensorType::U64, {2}, "rays stuck");
     refused("stderr_albedo", std::string(48, '\xff'), TensorType::F64, {2, 3}, "is negative or no");
     refused("theta_edges", std::string(24, '\xff'), TensorType::F64, {3}, "does not fit the");
-    refused("format", std::string("\2\0\0\0", 4), TensorType::U32, {1}, "format 2 is not known");
+    refused("format", std::string("\3\0\0\0", 4), TensorType::U32, {1}, "format 3 is not known");
+    refused("sides", std::string("\2\0\0\0", 4), TensorType::U32, {1}, "more sides than one");
+    refused("elements", std::string("\0\0\0\0", 4), TensorType::U32, {1}, "more elements");
     refused("format", std::string("\0\0\0\0", 4), TensorType::U32, {1}, "format 0 is not known");
 }
 

@@ -83,6 +83,10 @@ std::string provenance_json(const Measurement& m) {
                     {"threads", m.threads},
                     {"trace_seconds", m.trace_seconds},
                     {"stopped", m.stopped},
+                    {"part", m.part},
+                    {"parts", m.parts},
+                    {"surface_digest", m.surface_digest},
+                    {"surface_cells", m.surface_cells},
                     {"notes", m.notes}});
 }
 
@@ -93,6 +97,11 @@ void read_provenance_json(const std::string& text, Measurement& m) {
     m.trace_seconds = number_or_nan(json.at("trace_seconds"));
     json.at("stopped").get_to(m.stopped);
     json.at("notes").get_to(m.notes);
+    // Results of format 1 do not say these
+    m.part = json.value("part", 1);
+    m.parts = json.value("parts", 1);
+    m.surface_digest = json.value("surface_digest", "");
+    m.surface_cells = json.value("surface_cells", std::uint64_t{0});
 }
 
 }  // namespace asperity::io

@@ -47,7 +47,7 @@ class KnownFacetsOf : public testing::TestWithParam<Case> {
         asperity::Run run(1);
         follower.follow(scene(known), {LaunchPattern::LowDiscrepancy, rays, 1, 0, 0}, batch, run);
         LayerSums all(shape, rays);
-        all += batch;
+        all.add(0, batch);
         all.settle();
         return all;
     }

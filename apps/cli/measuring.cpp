@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measuring.h"
+
+#include "output_path.h"
+#include "progress.h"
+#include "report.h"
+#include "report_json.h"
+#include "stop.h"
+
+#include <asperity/bsdf/spec.h>
+#include <asperity/core/error.h>
+#include <asperity/formats/heights/surface_files.h>
+#include <asperity/formats/results/result_file.h>
+#include <asperity/gonio/measure.h>
+#include <asperity/gonio/measurement_head.h>
+#include <asperity/measured/compare.h>
+#include <asperity/optics/fresnel.h>
+#include <asperity/surface/surface_kinds.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+namespace asperity::cli {
+
+namespace {
+
+/// The thesis' model with F = 1 and roughness^2 = alpha, at most 1. A surface smoother than this
+/// has no lobe to compare with.
+constexpr double kLeastAlpha = 1e-3;
+
+std::string default_reference(const SurfaceSettings& settings, const SurfaceStatistics& figures) {
+    // GGX slopes have no finite mean square: the asked width is the surface's alpha.
+    const double alpha = surface_uses(settings.kind, "max-slope")
+                             ? std::sqrt(settings.alpha_x * settings.alpha_y)
+                             : figures.rms_gradient;
+    if (alpha < kLeastAlpha) return "none";
+    return fmt::format("cook-torrance:roughness={:.4g},metallic=1,albedo=1",
+                       std::min(1.0, std::sqrt(alpha)));
+}
+
+std::string checkpoint_of(const std::string& path) {
+    return path + ".checkpoint";
+}
+
+bool exists(const std::string& path) {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored);
+}
+
+std::uint64_t batches_in(const Measurement& m) {
+    std::uint64_t sum = 0;
+    for (const Layer& layer : m.layers) sum += static_cast<std::uint64_t>(layer.batches);
+    return sum;
+}
+
+/// Options that decide how far a run goes: a checkpoint of other ones leads to another result.
+void require_same_goal(const Measurement& so_far, const Measurement& head, int part, int parts,
+                       const std::string& path) {
+    const RunSettings &a = so_far.experiment.run, &b = head.experiment.run;
+    if (a.until != b.until || a.until_cells != b.until_cells || a.max_rays != b.max_rays)
+        throw Error(ErrorCode::InvalidInput,
+                    "it is of a run with another --until or --max-rays: see asperity refine", path);
+    if (so_far.part != part || so_far.parts != parts)
+        throw Error(ErrorCode::InvalidInput,
+                    fmt::format("it is of --part {}/{}", so_far.part, so_far.parts), path);
+}
+
+}  // namespace
+
+void Measuring::add_output(CLI::App& app, const std::string& otherwise) {
+    output_ =
+        add_text(app, "-o,--output", "FILE", "save the result: counts, errors, settings", kOutput)
+            ->default_str(otherwise);
+    reference_ = add_text(app, "--reference", "SPEC|none",
+                          "model for the L1 column, as compare takes it", kOutput)
+                     ->default_str("Cook-Torrance with roughness^2 = alpha");
+    app.add_flag("--json", json_, "print one JSON object, as info --json does")->group(kOutput);
+    app.add_flag("--quiet", quiet_, "no progress, no table")->group(kOutput);
+}
+
+void Measuring::add_run(CLI::App& app) {
+    threads_.add_to(app);
+    checkpoint_ = add_text(app, "--checkpoint", "SECONDS",
+                           "keep what is done in FILE.checkpoint so often; 0: never", kRun)
+                      ->default_str("30");
+    app.add_flag("--resume", resume_,
+                 "go on from FILE.checkpoint, or from a FILE that was stopped, of the same options")
+        ->group(kRun);
+}
+
+double Measuring::checkpoint_seconds() const {
+    const std::string text = text_of(checkpoint_, "30");
+    return text == "0" ? 0 : parse_positive("checkpoint", text);
+}
+
+void Measuring::check(const Experiment& experiment, const std::string& path) const {
+    validate(experiment);
+    const Fresnel checked(experiment.optics);
+    const std::string reference = text_of(reference_, "none");
+    if (reference != "none") parse_brdf_spec(reference);
+    if (path.empty()) {
+        if (resume_) throw Error(ErrorCode::Usage, "needs -o FILE to go on from", "resume");
+        if (checkpoint_->count() > 0)
+            throw Error(ErrorCode::Usage, "needs -o FILE beside which it is kept", "checkpoint");
+        return;
+    }
+    checkpoint_seconds();
+    check_output_file(path);
+}
+
+std::optional<Measurement> Measuring::left_behind(const Measurement& head, const std::string& path,
+                                                  const Talk& say) const {
+    const std::string beside = checkpoint_of(path);
+    const bool checkpoint = exists(beside);
+    const std::string& file = checkpoint ? beside : path;
+    if (!checkpoint && !io::looks_like_result(path)) {
+        say("there is no " + beside + ": starting from the beginning\n");
+        return std::nullopt;
+    }
+    Measurement so_far = io::load_measurement(file);
+    require_same_experiment(so_far, head, file);
+    require_same_goal(so_far, head, head.part, head.parts, file);
+    say(fmt::format("going on from {}: {} batches are done\n", file, batches_in(so_far)));
+    return so_far;
+}
+
+int Measuring::measure(Task task, const std::string& path) {
+    Run run(threads_.threads());
+    const Talk say(quiet_, json_);
+    const StopOnSignal stop(run);
+    ProgressBar progress(run, quiet_);
+
+    const Heightfield surface = io::load_surface(task.experiment.surface, run);
+    if (!task.rays_given) task.experiment.run.jitter = default_jitter(surface.cell_count());
+    MeasureScope scope{std::move(task.so_far), task.part, task.parts};
+    if (resume_) {
+        Measurement head = head_of(surface, task.experiment, run);
+        head.part = task.part;
+        head.parts = task.parts;
+        if (auto found = left_behind(head, path, say)) scope.so_far = std::move(found);
+    }
+    MeasureListener listener;
+    listener.begun = [&](const Measurement& head) {
+        progress.clear();
+        describe(say, head, surface);
+    };
+    bool told = false;
+    if (!path.empty() && checkpoint_seconds() > 0) {
+        listener.checkpoint_period =
+            std::chrono::milliseconds(std::llround(1000 * checkpoint_seconds()));
+        // Work goes on without one, but not without a word
+        listener.checkpoint = [&](const Measurement& so_far) {
+            try {
+                io::save_measurement(so_far, checkpoint_of(path));
+            } catch (const Error& error) {
+                if (!std::exchange(told, true))
+                    write_err(fmt::format("asperity: warning: no checkpoint: {}\n", error.what()));
+            }
+        };
+    }
+    // A run that refines until it is accurate gives each layer the rays it needs.
+    if (task.experiment.run.until == 0 && !scope.so_far && task.parts == 1)
+        progress.count_layers(incidences(task.experiment.illumination).size());
+    const Measurement m =
+        asperity::measure(surface, task.experiment, run, listener, std::move(scope));
+    progress.clear();
+
+    if (m.stopped && m.layers.empty())
+        throw Error(ErrorCode::Stopped, "stopped before anything was complete, nothing is written");
+    finish(m, path, run.threads());
+    return m.stopped ? static_cast<int>(ErrorCode::Stopped) : 0;
+}
+
+void Measuring::finish(const Measurement& m, const std::string& path, int threads) const {
+    const std::string checksum = path.empty() ? io::checksum(m) : io::save_measurement(m, path);
+    if (!path.empty()) {
+        std::error_code ignored;
+        std::filesystem::remove(checkpoint_of(path), ignored);
+    }
+    tell(Talk(quiet_, json_), m, checksum, path, threads);
+}
+
+void Measuring::describe(const Talk& say, const Measurement& head,
+                         const Heightfield& surface) const {
+    if (quiet_) return;
+    const SurfaceSettings& settings = head.experiment.surface;
+    say("surface: " + surface_line(settings, head.surface, surface.nx, surface.ny) + "\n");
+    const std::string tiling = tiling_line(settings, surface);
+    if (!tiling.empty()) say("surface: " + tiling + "\n");
+}
+
+void Measuring::tell(const Talk& say, const Measurement& m, const std::string& checksum,
+                     const std::string& path, int threads) const {
+    if (json_) {
+        Json json = to_json(m, checksum);
+        json["file"] = nullptr;
+        if (!path.empty()) json["file"] = path;
+        write_json(json);
+    }
+    if (quiet_) return;
+    std::string reference = text_of(reference_);
+    if (reference.empty()) reference = default_reference(m.experiment.surface, m.surface);
+    // A share of the batches is no lobe to compare
+    if (m.parts > 1) reference = "none";
+    std::optional<Comparison> comparison;
+    if (reference != "none") comparison = compare(m, *parse_brdf_spec(reference), threads);
+    say(layer_table(m, comparison));
+    if (comparison)
+        say("L1: distance to " + reference + "; noise: what it would be from the errors alone\n");
+    say(closing_lines(m));
+    if (!path.empty()) say(fmt::format("wrote {}{}\n", path, m.stopped ? " (partial)" : ""));
+    say("checksum " + checksum + "\n");
+}
+
+}  // namespace asperity::cli

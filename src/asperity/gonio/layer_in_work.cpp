@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/gonio/layer_in_work.h>
+
+#include <asperity/core/error.h>
+#include <asperity/gonio/layer_of_sums.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace asperity {
+
+LayerInWork::LayerInWork(const Incidence& incidence, std::uint32_t number, const SumShape& shape,
+                         const BatchPlan& plan, const RunSettings& run)
+    : light(incidence), stream(number), plan_(plan), run_(run) {
+    sums_.shape = shape;
+    sums_.largest_batch = plan.largest();
+}
+
+void LayerInWork::take(LayerSums so_far) {
+    if (so_far.done.end() > plan_.round_of(so_far.done.end()).end)
+        throw Error(ErrorCode::Usage,
+                    fmt::format("layer {} has {} rays already, more than this run may give it",
+                                light.number, so_far.rays),
+                    "max-rays");
+    sums_ = std::move(so_far);
+}
+
+BatchRange LayerInWork::round() {
+    const BatchSet& done = sums_.done;
+    BatchRange round = plan_.round_of(done.end());
+    round.begin = std::min(round.begin, done.first_missing());
+    if (done.first_missing() < round.end) return round;
+    return {round.end, round.end + more()};
+}
+
+void LayerInWork::plan(BatchRange range) {
+    to_do_.clear();
+    for (std::uint64_t b = range.begin; b < range.end; ++b)
+        if (!sums_.done.contains(b)) to_do_.push_back(b);
+}
+
+void LayerInWork::leave_out() {
+    const SumShape shape = sums_.shape;
+    sums_ = {};
+    sums_.shape = shape;
+    sums_.largest_batch = plan_.largest();
+}
+
+void LayerInWork::add(std::uint64_t batch, const BatchSums& sums) {
+    // Integers, so the order does not matter
+    const std::scoped_lock lock(mutex_);
+    if (sums_.energy.empty()) sums_ = LayerSums(sums_.shape, sums_.largest_batch);
+    sums_.add(batch, sums);
+}
+
+std::uint64_t LayerInWork::refine() {
+    const std::uint64_t end = sums_.done.end(), added = more();
+    for (std::uint64_t b = end; b < end + added; ++b) to_do_.push_back(b);
+    return added;
+}
+
+std::uint64_t LayerInWork::more() {
+    if (run_.until <= 0 || accurate()) return 0;
+    const std::uint64_t more = plan_.more(sums_.batches(), sums_.rays);
+    if (more == 0)
+        notes.push_back(
+            fmt::format("layer {} stopped refining at {} rays: the asked error was not reached",
+                        light.number, sums_.rays));
+    return more;
+}
+
+bool LayerInWork::accurate() {
+    const std::scoped_lock lock(mutex_);
+    sums_.settle();
+    const LayerSums::Errors errors = sums_.relative_errors();
+    const double cells = run_.until_cells > 0 ? run_.until_cells : run_.until;
+    return errors.albedo <= run_.until && errors.cells <= cells;
+}
+
+bool LayerInWork::write(Layer& layer, std::uint64_t least_batches) {
+    const std::scoped_lock lock(mutex_);
+    if (sums_.batches() < least_batches) return false;
+    sums_.settle();
+    layer = layer_of(light, sums_);
+    return true;
+}
+
+void LayerInWork::close() {
+    sums_ = {};
+    surface.reset();
+}
+
+LayersInWork::LayersInWork(const Experiment& experiment, const SumShape& shape,
+                           const BatchPlan& plan)
+    : shape_(shape) {
+    for (const Incidence& light : incidences(experiment.illumination))
+        layers_.emplace_back(light, static_cast<std::uint32_t>(layers_.size()), shape, plan,
+                             experiment.run);
+}
+
+std::vector<double> LayersInWork::theta_i() const {
+    std::vector<double> angles;
+    for (const LayerInWork& layer : layers_) angles.push_back(layer.light.theta);
+    return angles;
+}
+
+void LayersInWork::take(const Measurement& so_far) {
+    for (const Layer& layer : so_far.layers)
+        for (LayerInWork& ours : layers_)
+            if (ours.light.number == layer.number) ours.take(sums_of(layer, shape_));
+}
+
+void LayersInWork::share_out(int part, int parts) {
+    std::vector<BatchRange> rounds;
+    std::uint64_t total = 0;
+    for (LayerInWork& layer : layers_) {
+        rounds.push_back(layer.round());
+        total += rounds.back().size();
+    }
+    const auto cut = [&](int k) {
+        return total * static_cast<std::uint64_t>(k) / static_cast<std::uint64_t>(parts);
+    };
+    const BatchRange ours{cut(part - 1), cut(part)};
+    std::uint64_t before = 0;
+    for (std::size_t k = 0; k < layers_.size(); ++k) {
+        const BatchRange share = common({before, before + rounds[k].size()}, ours);
+        layers_[k].plan(
+            {share.begin - before + rounds[k].begin, share.end - before + rounds[k].begin});
+        before += rounds[k].size();
+    }
+}
+
+}  // namespace asperity

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/detector/illumination.h>
+#include <asperity/detector/layer_sums.h>
+#include <asperity/gonio/batch_plan.h>
+#include <asperity/gonio/measurement.h>
+#include <asperity/tracing/engine.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace asperity {
+
+/// A layer on its way: which of its batches are done, and which are to be done next.
+///
+/// Its batches come in rounds (BatchPlan); after each the layer is looked at, and goes on with
+/// another if it is not accurate enough. What is done may have come from elsewhere, in any order.
+class LayerInWork {
+  public:
+    LayerInWork(const Incidence& incidence, std::uint32_t number, const SumShape& shape,
+                const BatchPlan& plan, const RunSettings& run);
+
+    const Incidence light;
+    const std::uint32_t stream;           ///< of random numbers
+    std::unique_ptr<LitSurface> surface;  ///< in this light, once it is prepared
+    std::vector<std::string> notes;       ///< for the reader of the result
+
+    /// Goes on from what was done before. Throws Error(Usage, "max-rays") if that is more than the
+    /// plan allows.
+    void take(LayerSums so_far);
+    /// The round under way, or nothing if all is done: the batches of it that were not looked at
+    /// before, with those that are missing among earlier ones.
+    BatchRange round();
+    /// Lists the batches of `range` that are not done as those to do.
+    void plan(BatchRange range);
+    /// Leaves what was taken out of the sums; it stays known as done.
+    void leave_out();
+    const std::vector<std::uint64_t>& to_do() const { return to_do_; }
+
+    /// Adds a batch that was traced. From any thread.
+    void add(std::uint64_t batch, const BatchSums& sums);
+    /// All to do is done: lists the next round, if the layer needs one, and says how many batches
+    /// that adds.
+    std::uint64_t refine();
+    /// The layer as it stands; false if fewer batches are in it. From any thread.
+    bool write(Layer& layer, std::uint64_t least_batches);
+    /// Gives its memory back.
+    void close();
+
+  private:
+    bool accurate();
+    std::uint64_t more();
+
+    const BatchPlan& plan_;
+    const RunSettings& run_;
+    std::mutex mutex_;  ///< guards the sums
+    LayerSums sums_;
+    std::vector<std::uint64_t> to_do_;
+};
+
+/// All layers of a measurement, in the order in which they are filled.
+class LayersInWork {
+  public:
+    LayersInWork(const Experiment& experiment, const SumShape& shape, const BatchPlan& plan);
+
+    std::size_t size() const { return layers_.size(); }
+    LayerInWork& operator[](std::size_t k) { return layers_[k]; }
+    std::vector<double> theta_i() const;
+
+    /// Goes on from the layers of an earlier result.
+    void take(const Measurement& so_far);
+    /// Lists in each layer the batches of its round that are to be done: share number `part` of
+    /// `parts`, counted over all layers one after the other.
+    void share_out(int part, int parts);
+
+  private:
+    const SumShape shape_;
+    std::deque<LayerInWork> layers_;
+};
+
+}  // namespace asperity

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// However a measurement is divided, by stops, parts or refinement, the same comes out.
+#include <asperity/core/error.h>
+#include <asperity/gonio/merge.h>
+#include <asperity/gonio/test_measurements.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace asperity {
+namespace {
+
+using test::expect_same_bits;
+
+/// Batches of unequal sizes, in gold.
+Experiment experiment() {
+    Experiment e = test::small_experiment();
+    e.illumination.theta_deg = {0, 30, 60};
+    e.optics = test::gold_like();
+    e.run.rays = 20005;
+    return e;
+}
+
+Measurement measured(const Heightfield& surface, const Experiment& e, MeasureScope scope = {},
+                     int threads = 2) {
+    asperity::Run run(threads);
+    return measure(surface, e, run, {}, std::move(scope));
+}
+
+/// The same, going on until the albedo is so much better known than after one round.
+Experiment until(const Heightfield& surface, Experiment e, double factor) {
+    const Measurement one = measured(surface, e);
+    for (const Layer& layer : one.layers)
+        for (int c = 0; c < one.channels(); ++c)
+            e.run.until = std::max(
+                e.run.until, factor * layer.stderr_albedo[std::size_t(c)] / one.albedo(layer, c));
+    e.run.until_cells = 0.9;
+    return e;
+}
+
+/// Everything that was seen at checkpoints, one after each batch.
+std::vector<Measurement> checkpoints(const Heightfield& surface, const Experiment& e) {
+    std::vector<Measurement> seen;
+    MeasureListener listener;
+    listener.checkpoint = [&](const Measurement& m) { seen.push_back(m); };
+    listener.checkpoint_period = std::chrono::milliseconds(0);
+    asperity::Run run(2);
+    measure(surface, e, run, listener);
+    return seen;
+}
+
+void expect_same_result(const Measurement& a, const Measurement& b) {
+    expect_same_bits(a, b);
+    EXPECT_EQ(a.stopped, b.stopped);
+    EXPECT_EQ(a.notes, b.notes);
+    for (std::size_t k = 0; k < a.layers.size(); ++k)
+        EXPECT_TRUE(a.layers[k].spread.squares == b.layers[k].spread.squares);
+}
+
+TEST(MeasureScope, GoesOnFromAnyCheckpoint) {
+    const Heightfield surface = test::noise(64, 2);
+    for (const bool refining : {false, true}) {
+        const Experiment e = refining ? until(surface, experiment(), 0.4) : experiment();
+        const Measurement whole = measured(surface, e);
+        const std::vector<Measurement> seen = checkpoints(surface, e);
+        ASSERT_GT(seen.size(), 2u);
+        for (std::size_t k = 0; k < seen.size(); k += 1 + seen.size() / 6) {
+            EXPECT_TRUE(seen[k].stopped);
+            expect_same_result(measured(surface, e, {.so_far = seen[k]}, 1 + int(k) % 3), whole);
+        }
+        // What is complete stays
+        expect_same_result(measured(surface, e, {.so_far = whole}), whole);
+    }
+}
+
+TEST(MeasureScope, PartsAddUpInAnyOrder) {
+    const Heightfield surface = test::noise(64, 2);
+    const Experiment e = experiment();
+    const Measurement whole = measured(surface, e);
+    for (const int parts : {2, 7, 60}) {
+        std::vector<Measurement> pieces;
+        for (int k = 1; k <= parts; ++k)
+            pieces.push_back(measured(surface, e, {.part = k, .parts = parts}));
+        for (int order = 0; order < 3; ++order) {
+            if (order == 1) std::reverse(pieces.begin(), pieces.end());
+            if (order == 2) std::rotate(pieces.begin(), pieces.begin() + 1, pieces.end());
+            Merge merge;
+            for (const Measurement& piece : pieces) merge.add(piece, "part");
+            expect_same_bits(merge.finish(), whole);
+        }
+    }
+}
+
+TEST(MeasureScope, APartGoesOnFromItsCheckpoint) {
+    const Heightfield surface = test::noise(64, 2);
+    const Experiment e = experiment();
+    std::vector<Measurement> seen;
+    MeasureListener listener;
+    listener.checkpoint = [&](const Measurement& m) { seen.push_back(m); };
+    listener.checkpoint_period = std::chrono::milliseconds(0);
+    asperity::Run run(1);
+    const Measurement part = measure(surface, e, run, listener, {.part = 2, .parts = 3});
+    ASSERT_GT(seen.size(), 1u);
+    expect_same_result(measured(surface, e, {.so_far = seen[1], .part = 2, .parts = 3}), part);
+}
+
+TEST(MeasureScope, RefiningGivesWhatAskingAtOnceGives) {
+    const Heightfield surface = test::noise(64, 2);
+    const Experiment once = experiment(), coarse = until(surface, once, 0.7),
+                     fine = until(surface, once, 0.3);
+    const Measurement at_once = measured(surface, fine);
+    ASSERT_GT(at_once.layers.back().batches, 16);
+    for (const Experiment& before : {once, coarse, fine})
+        expect_same_result(measured(surface, fine, {.so_far = measured(surface, before)}), at_once);
+}
+
+/// As many machines do it: each round is shared, and all go on from the sum.
+TEST(MeasureScope, RoundsOfPartsReachTheSameAccuracy) {
+    const Heightfield surface = test::noise(64, 2);
+    const Experiment e = until(surface, experiment(), 0.3);
+    Measurement so_far;
+    for (int round = 0;; ++round) {
+        ASSERT_LT(round, 12);
+        Merge merge;
+        bool more = false;
+        if (round > 0) merge.add(so_far, "so far");
+        for (int k = 1; k <= 3; ++k) {
+            MeasureScope scope{.part = k, .parts = 3, .leave_out_so_far = true};
+            if (round > 0) scope.so_far = so_far;
+            const Measurement part = measured(surface, e, std::move(scope));
+            more = more || !part.layers.empty();
+            merge.add(part, "part");
+        }
+        so_far = merge.finish();
+        if (!more) break;
+    }
+    EXPECT_GT(so_far.layers.back().batches, 16);
+    expect_same_bits(so_far, measured(surface, e));
+}
+
+std::string message_of(const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "nothing was thrown";
+}
+
+TEST(MeasureScope, WhatDoesNotFitIsRefusedByName) {
+    const Heightfield surface = test::noise(64, 2);
+    const Experiment e = experiment();
+    const Measurement one = measured(surface, e, {.part = 1, .parts = 3}),
+                      two = measured(surface, e, {.part = 2, .parts = 3}),
+                      three = measured(surface, e, {.part = 3, .parts = 3});
+    Merge merge;
+    merge.add(one, "one");
+    EXPECT_EQ(message_of([&] { merge.add(one, "again"); }),
+              "again: batches 0 to 15 of layer 1 are in one, too");
+    Experiment other = e;
+    other.run.seed = 2;
+    EXPECT_EQ(message_of([&] { merge.add(measured(surface, other), "other"); }),
+              "other: it is of another experiment: seed is 2 there and 1 here");
+    EXPECT_EQ(message_of([&] { merge.add(measured(test::noise(64, 3), e), "other"); }),
+              "other: it is of another experiment: its surface has other heights, though its "
+              "settings are "
+              "the same");
+    merge.add(three, "three");
+    EXPECT_EQ(message_of([&] { Merge(merge).finish(); }),
+              "batches 0 to 15 of layer 2 are missing: part 2/3 is missing");
+    merge.add(two, "two");
+    expect_same_bits(merge.finish(), measured(surface, e));
+
+    EXPECT_EQ(message_of([&] { measured(test::noise(64, 3), e, {.so_far = one}); }),
+              "result: it is of another experiment: its surface has other heights, though its "
+              "settings are "
+              "the same");
+    Experiment less = e;
+    less.run.until = 0.5;
+    less.run.max_rays = 20005;
+    const Measurement refined = measured(surface, until(surface, e, 0.3));
+    EXPECT_NE(message_of([&] { measured(surface, less, {.so_far = refined}); }).find("more than"),
+              std::string::npos);
+    Measurement old = one;
+    old.layers.front().spread = {};
+    EXPECT_NE(message_of([&] { measured(surface, e, {.so_far = old}); }).find("measure it anew"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace asperity

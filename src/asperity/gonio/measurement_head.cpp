@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/gonio/measurement_head.h>
+
+#include <asperity/core/error.h>
+#include <asperity/core/version.h>
+#include <asperity/gonio/experiment_text.h>
+#include <asperity/optics/fresnel.h>
+#include <asperity/surface/digest.h>
+#include <fmt/format.h>
+
+namespace asperity {
+
+Measurement head_of(const Heightfield& surface, const Experiment& experiment, const Run& run) {
+    Measurement m;
+    m.experiment = experiment;
+    m.detector = Detector(experiment.detector);
+    m.channel_names = Fresnel(experiment.optics).channel_names();
+    m.surface_name = surface.name;
+    if (!surface.tiling.empty()) m.surface_name += ", " + surface.tiling;
+    m.surface_nx = surface.nx;
+    m.surface_ny = surface.ny;
+    m.surface_dx = surface.dx;
+    m.surface_dy = surface.dy;
+    m.surface_isotropic = surface.isotropic;
+    m.surface_digest = digest(surface);
+    m.surface_cells = surface.cell_count();
+    m.threads = run.threads();
+    m.version = kVersion;
+    if (experiment.illumination.isotropic && !surface.isotropic)
+        m.notes.push_back(
+            "the surface does not declare itself isotropic: layers are averages over the "
+            "azimuth of the light");
+    return m;
+}
+
+void require_same_experiment(const Measurement& so_far, const Measurement& head,
+                             const std::string& where) {
+    const auto differ = [&](const std::string& what) {
+        throw Error(ErrorCode::InvalidInput, "it is of another experiment: " + what, where);
+    };
+    Experiment was = so_far.experiment;
+    was.run.until = head.experiment.run.until;
+    was.run.until_cells = head.experiment.run.until_cells;
+    was.run.max_rays = head.experiment.run.max_rays;
+    const std::vector<Setting> a = settings_of(was), b = settings_of(head.experiment);
+    for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
+        if (a[k].key != b[k].key)
+            differ(fmt::format("it has {} where this one has {}", a[k].key, b[k].key));
+        else if (a[k].value != b[k].value)
+            differ(fmt::format("{} is {} there and {} here", a[k].key, a[k].value, b[k].value));
+    if (so_far.shape() != head.shape()) differ("its sums have other sizes");
+    if (so_far.surface_digest != head.surface_digest)
+        differ("its surface has other heights, though its settings are the same");
+}
+
+}  // namespace asperity

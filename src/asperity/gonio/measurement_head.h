@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/core/run.h>
+#include <asperity/gonio/measurement.h>
+#include <asperity/surface/heightfield.h>
+
+namespace asperity {
+
+/// All of a Measurement but its layers and the surface's statistics.
+Measurement head_of(const Heightfield& surface, const Experiment& experiment, const Run& run);
+
+/// Refuses to go on from `so_far` with this experiment, or to add the layers of both. `until` and
+/// `max_rays` may differ: they decide how many batches there are, not what is in one. Throws
+/// Error(InvalidInput, `where`) that names what differs.
+void require_same_experiment(const Measurement& so_far, const Measurement& head,
+                             const std::string& where);
+
+}  // namespace asperity

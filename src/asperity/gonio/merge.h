@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/detector/layer_sums.h>
+#include <asperity/gonio/measurement.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace asperity {
+
+/// Adds up the parts of one experiment (MeasureScope), in any order, to the bits of a run that did
+/// all of it. Holds the sums and one part at a time.
+class Merge {
+  public:
+    /// `name`, that of the file, is for messages. Throws Error(InvalidInput, name) for a part of
+    /// another experiment, one with a batch that is there already, and one that does not hold what
+    /// its errors come from.
+    void add(Measurement part, const std::string& name);
+    /// The whole. Throws Error(InvalidInput) that names what is missing.
+    Measurement finish();
+
+  private:
+    struct Source {
+        std::string name;
+        int part, parts;
+        std::map<int, BatchSet> done;  ///< by layer number
+    };
+    void refuse_overlap(const Source& source) const;
+    std::string missing_parts() const;
+
+    Measurement whole_;              ///< without layers
+    std::map<int, LayerSums> sums_;  ///< by layer number
+    std::vector<Source> sources_;
+};
+
+}  // namespace asperity

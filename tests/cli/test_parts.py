@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A measurement killed, resumed, refined, divided and merged: the checksum is always the same."""
+import os
+import random
+import signal
+import subprocess
+import time
+
+from program import PROGRAM, ProgramTest, main
+
+# A few seconds of one thread, in batches of some milliseconds.
+WORK = ["simulate", "--surface", "gaussian:alpha=0.3,size=128", "--theta", "0,40,75", "--material",
+        "Au", "--resolution", "32", "--jitter", "1500", "--batches", "64"]
+
+
+class Parts(ProgramTest):
+    def checksum(self, *arguments):
+        return self.json_of(*arguments)["checksum"]
+
+    def killed(self, seconds, *arguments):
+        """Runs, and kills it after so many seconds; whether it was alive until then."""
+        process = subprocess.Popen([PROGRAM, *arguments], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        try:
+            process.wait(timeout=seconds)
+            return False
+        except subprocess.TimeoutExpired:
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            return True
+
+    def test_killed_at_any_moment_it_goes_on(self):
+        random.seed(1)
+        for refining in ([], ["--until", "0.03%,60%"]):
+            work = [*WORK, *refining]
+            whole = self.checksum(*work)
+            file = f"r{len(refining)}.asperity"
+            begin = time.monotonic()
+            self.passes(*work, "-o", "timed.asperity")
+            usual = time.monotonic() - begin
+            kills = 0
+            for k in range(8):
+                threads = ["--threads", str(1 + k % 2)]
+                kills += self.killed(random.uniform(0.05, 0.22) * usual, *work, *threads, "-o", file,
+                                     "--resume", "--checkpoint", "0.01")
+            self.assertGreater(kills, 5)
+            self.assertTrue(os.path.exists(file + ".checkpoint"))
+            self.assertEqual(self.checksum(*work, "-o", file, "--resume"), whole)
+            self.assert_files(*{"timed.asperity", "r0.asperity", file})
+
+    def test_stopped_it_goes_on_from_what_was_written(self):
+        whole = self.checksum(*WORK)
+        process = subprocess.Popen([PROGRAM, *WORK, "--threads", "1", "-o", "r.asperity"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.assertIn("surface:", process.stdout.readline())
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        process.communicate()
+        if process.returncode == 130:
+            self.assert_files("r.asperity")
+        out = self.passes(*WORK, "-o", "r.asperity", "--resume")
+        self.assertIn("going on from r.asperity: ", out)
+        self.assertIn("checksum " + whole, out)
+
+    def test_without_a_checkpoint_it_says_so(self):
+        small = ["simulate", "--surface", "flat:size=16", "--theta", "30", "-o", "r.asperity"]
+        self.assertIn("there is no r.asperity.checkpoint: starting from the beginning",
+                      self.passes(*small, "--resume"))
+
+    def test_parts_in_any_order(self):
+        whole = self.checksum(*WORK)
+        files = []
+        for k in range(1, 8):
+            files.append(f"part{k}.asperity")
+            out = self.passes(*WORK, "--threads", str(1 + k % 2), "--part", f"{k}/7", "-o",
+                              files[-1])
+            self.assertNotIn("stopped", out)
+        for order in (files, files[::-1], files[3:] + files[:3]):
+            self.assertEqual(self.checksum("merge", *order, "-o", "whole.asperity"), whole)
+        info = self.json_of("info", "whole.asperity")
+        self.assertEqual((info["notes"], info["stopped"]), ([], False))
+
+        self.fails(3, "merge", *files[:4], *files[5:], "-o", "x.asperity",
+                   saying="part 5/7 is missing")
+        self.fails(3, "merge", *files, files[2], "-o", "x.asperity",
+                   saying="part3.asperity: batches ")
+        self.passes(*WORK, "--seed", "2", "--part", "5/7", "-o", "other.asperity")
+        self.fails(3, "merge", *files[:4], "other.asperity", *files[5:], "-o", "x.asperity",
+                   saying="other.asperity: it is of another experiment: seed is 2 there and 1 here")
+        self.fails(3, "refine", files[0], "--until", "0.1%", saying="merge the parts first")
+        # A part is no result, and says what it is
+        self.assertIn("part 1 of 7", self.passes("info", files[0]))
+
+    def test_a_finished_result_is_refined(self):
+        at_once = self.checksum(*WORK, "--until", "0.03%,60%")
+        self.passes(*WORK, "-o", "r.asperity")
+        out = self.passes("refine", "r.asperity", "--until", "0.03%,60%")
+        self.assertIn("checksum " + at_once, out)
+        self.assert_files("r.asperity")
+        self.fails(2, "refine", "r.asperity", "--until", "0.1%",
+                   saying="it was measured until 0.03%,60% already")
+        self.fails(2, "refine", "r.asperity", saying="refine needs --until")
+
+    def test_a_checkpoint_of_other_options_is_refused(self):
+        self.killed(2, *WORK, "--jitter", "5000", "-o", "r.asperity", "--checkpoint", "0.1")
+        self.assertTrue(os.path.exists("r.asperity.checkpoint"))
+        self.fails(3, *WORK, "-o", "r.asperity", "--resume", saying="jitter is 5000 there and 1500")
+        self.fails(3, *WORK, "--jitter", "5000", "--until", "1%", "-o", "r.asperity", "--resume",
+                   saying="another --until")
+        self.fails(2, *WORK, "--resume", saying="needs -o FILE")
+        self.fails(2, *WORK, "--part", "8/7", "-o", "r.asperity", saying="'8' is not a whole number")
+        self.fails(2, *WORK, "--part", "2", "-o", "r.asperity", saying="is not K/N")
+        self.fails(2, *WORK, "--part", "1/2", "--until", "1%", "-o", "r.asperity",
+                   saying="leave --until out")
+
+
+if __name__ == "__main__":
+    main()
