@@ -9,6 +9,7 @@
 
 #include <asperity/bsdf/spec.h>
 #include <asperity/core/error.h>
+#include <asperity/formats/atomic_file.h>
 #include <asperity/formats/heights/surface_files.h>
 #include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/measure.h>
@@ -115,6 +116,7 @@ void Measuring::check(const Experiment& experiment, const std::string& path) con
 
 std::optional<Measurement> Measuring::left_behind(const Measurement& head, const std::string& path,
                                                   const Talk& say) const {
+    if (!resume_) return std::nullopt;
     const std::string beside = checkpoint_of(path);
     const bool checkpoint = exists(beside);
     const std::string& file = checkpoint ? beside : path;
@@ -129,6 +131,21 @@ std::optional<Measurement> Measuring::left_behind(const Measurement& head, const
     return so_far;
 }
 
+void Measuring::keep(const Measurement& so_far, const std::string& path) {
+    // Work goes on without one, but not without a word
+    try {
+        io::save_measurement(so_far, checkpoint_of(path));
+    } catch (const Error& error) {
+        if (!std::exchange(warned_, true))
+            write_err(fmt::format("asperity: warning: no checkpoint: {}\n", error.what()));
+    }
+}
+
+std::chrono::milliseconds Measuring::checkpoint_period() const {
+    const double seconds = checkpoint_seconds() > 0 ? std::min(checkpoint_seconds(), 1e6) : 3600;
+    return std::chrono::milliseconds(std::llround(1000 * seconds));
+}
+
 int Measuring::measure(Task task, const std::string& path) {
     Run run(threads_.threads());
     const Talk say(quiet_, json_);
@@ -138,30 +155,18 @@ int Measuring::measure(Task task, const std::string& path) {
     const Heightfield surface = io::load_surface(task.experiment.surface, run);
     if (!task.rays_given) task.experiment.run.jitter = default_jitter(surface.cell_count());
     MeasureScope scope{std::move(task.so_far), task.part, task.parts};
-    if (resume_) {
-        Measurement head = head_of(surface, task.experiment, run);
-        head.part = task.part;
-        head.parts = task.parts;
-        if (auto found = left_behind(head, path, say)) scope.so_far = std::move(found);
-    }
+    Measurement head = head_of(surface, task.experiment, run);
+    head.part = task.part;
+    head.parts = task.parts;
+    if (auto found = left_behind(head, path, say)) scope.so_far = std::move(found);
     MeasureListener listener;
-    listener.begun = [&](const Measurement& head) {
+    listener.begun = [&](const Measurement& begun) {
         progress.clear();
-        describe(say, head, surface);
+        describe(say, begun, surface);
     };
-    bool told = false;
     if (!path.empty() && checkpoint_seconds() > 0) {
-        listener.checkpoint_period =
-            std::chrono::milliseconds(std::llround(1000 * checkpoint_seconds()));
-        // Work goes on without one, but not without a word
-        listener.checkpoint = [&](const Measurement& so_far) {
-            try {
-                io::save_measurement(so_far, checkpoint_of(path));
-            } catch (const Error& error) {
-                if (!std::exchange(told, true))
-                    write_err(fmt::format("asperity: warning: no checkpoint: {}\n", error.what()));
-            }
-        };
+        listener.checkpoint_period = checkpoint_period();
+        listener.checkpoint = [&](const Measurement& so_far) { keep(so_far, path); };
     }
     // A run that refines until it is accurate gives each layer the rays it needs.
     if (task.experiment.run.until == 0 && !scope.so_far && task.parts == 1)
@@ -178,10 +183,7 @@ int Measuring::measure(Task task, const std::string& path) {
 
 void Measuring::finish(const Measurement& m, const std::string& path, int threads) const {
     const std::string checksum = path.empty() ? io::checksum(m) : io::save_measurement(m, path);
-    if (!path.empty()) {
-        std::error_code ignored;
-        std::filesystem::remove(checkpoint_of(path), ignored);
-    }
+    if (!path.empty()) io::remove_file(checkpoint_of(path));
     tell(Talk(quiet_, json_), m, checksum, path, threads);
 }
 

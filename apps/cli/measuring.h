@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <chrono>
 #include <optional>
 #include <string>
 
@@ -38,6 +39,18 @@ class Measuring {
     /// Measures, keeps checkpoints beside `path`, writes the result there and tells of it. Returns
     /// the exit code.
     int measure(Task task, const std::string& path);
+    /// Finds what an earlier run with the same options left at `path` or beside it, if --resume
+    /// asks for it. Throws Error(InvalidInput, file) for what is of other options.
+    std::optional<Measurement> left_behind(const Measurement& head, const std::string& path,
+                                           const Talk& say) const;
+    /// Writes the checkpoint beside `path`; that it could not is said once.
+    void keep(const Measurement& so_far, const std::string& path);
+    /// No checkpoint is wanted: an hour.
+    std::chrono::milliseconds checkpoint_period() const;
+    bool quiet() const { return quiet_; }
+    bool json() const { return json_; }
+    int threads() const { return threads_.threads(); }
+
     /// Writes a complete result to `path` and tells of it.
     void finish(const Measurement& measurement, const std::string& path, int threads) const;
 
@@ -45,14 +58,11 @@ class Measuring {
     void describe(const Talk& say, const Measurement& head, const Heightfield& surface) const;
     void tell(const Talk& say, const Measurement& measurement, const std::string& checksum,
               const std::string& path, int threads) const;
-    /// Finds what an earlier run with the same options left at `path` or beside it.
-    std::optional<Measurement> left_behind(const Measurement& head, const std::string& path,
-                                           const Talk& say) const;
     double checkpoint_seconds() const;
 
     ThreadsOption threads_;
     CLI::Option *output_ = nullptr, *reference_ = nullptr, *checkpoint_ = nullptr;
-    bool resume_ = false, json_ = false, quiet_ = false;
+    bool resume_ = false, json_ = false, quiet_ = false, warned_ = false;
 };
 
 }  // namespace asperity::cli

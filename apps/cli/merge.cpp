@@ -27,7 +27,9 @@ constexpr const char* kClosing =
     "Examples\n"
     "  asperity simulate --config run.txt --part 1/2 -o part1.asperity\n"
     "  asperity simulate --config run.txt --part 2/2 -o part2.asperity\n"
-    "  asperity merge part*.asperity -o whole.asperity\n";
+    "  asperity merge part1.asperity part2.asperity -o whole.asperity\n"
+    "  asperity merge part*.asperity -o whole.asperity --json\n"
+    "  asperity merge gold.asperity.*-of-100 -o gold.asperity     (of a job array)\n";
 
 class MergeVerb {
   public:

@@ -23,7 +23,8 @@ constexpr const char* kClosing =
     "\n"
     "Examples\n"
     "  asperity refine rough.asperity --until 0.5%\n"
-    "  asperity refine rough.asperity --until 0.5%,5% -o fine.asperity\n";
+    "  asperity refine rough.asperity --until 0.5%,5% -o fine.asperity\n"
+    "  asperity refine rough.asperity --until 0.1% --max-rays 1e9 --resume   (after a crash)\n";
 
 class RefineVerb {
   public:

@@ -44,6 +44,7 @@ OPTIONS = {
     "orders": ([], []),
     "seed": ([], ["0"]),
     "threads": ([], []),
+    "checkpoint": ([], ["0", "1e308"]),
 }
 
 TINY = ["--size", "32", "--resolution", "8", "--layers", "1", "--quiet", "-o", "r.asperity"]
@@ -55,7 +56,7 @@ class SillyNumbers(ProgramTest):
         names = {"--surface", "--autocorrelation", "--tiling", "--boundary", "--diagonal",
                  "--format", "--channel", "--decimal", "--fresnel", "--material", "--detector",
                  "--launch", "--config", "--reference", "--output", "--along-y", "--isotropic",
-                 "--json", "--quiet", "--help"}
+                 "--json", "--quiet", "--help", "--engine", "--part", "--resume"}
         help_lines = self.passes("simulate", "--help").split("\nExamples")[0].splitlines()
         listed = {word.rstrip(",") for line in help_lines for word in line.split()[:2]
                   if line.startswith("  ") and word.startswith("--")}

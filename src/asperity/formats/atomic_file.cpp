@@ -188,4 +188,10 @@ void AtomicFile::close_and_remove() noexcept {
     temporary_.clear();
 }
 
+void remove_file(const std::string& path) {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+    sweep(path);
+}
+
 }  // namespace asperity::io

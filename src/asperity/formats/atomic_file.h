@@ -55,4 +55,8 @@ class AtomicFile {
     std::int64_t started_ = 0;  ///< bytes on their way to the disk
 };
 
+/// Removes `path`, and what killed programs have left of writing it; that it is not there is no
+/// error.
+void remove_file(const std::string& path);
+
 }  // namespace asperity::io

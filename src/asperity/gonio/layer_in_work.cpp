@@ -34,12 +34,6 @@ BatchRange LayerInWork::round() {
     return {round.end, round.end + more()};
 }
 
-void LayerInWork::plan(BatchRange range) {
-    to_do_.clear();
-    for (std::uint64_t b = range.begin; b < range.end; ++b)
-        if (!sums_.done.contains(b)) to_do_.push_back(b);
-}
-
 void LayerInWork::leave_out() {
     const SumShape shape = sums_.shape;
     sums_ = {};
@@ -111,24 +105,20 @@ void LayersInWork::take(const Measurement& so_far) {
             if (ours.light.number == layer.number) ours.take(sums_of(layer, shape_));
 }
 
-void LayersInWork::share_out(int part, int parts) {
-    std::vector<BatchRange> rounds;
-    std::uint64_t total = 0;
-    for (LayerInWork& layer : layers_) {
-        rounds.push_back(layer.round());
-        total += rounds.back().size();
+void LayersInWork::share_out(int part, int parts, bool of_missing) {
+    // All batches there are to share, layer after layer
+    std::vector<std::pair<std::size_t, std::uint64_t>> batches;
+    for (std::size_t k = 0; k < layers_.size(); ++k) {
+        const BatchRange round = layers_[k].round();
+        for (std::uint64_t b = round.begin; b < round.end; ++b)
+            if (!of_missing || !layers_[k].has(b)) batches.emplace_back(k, b);
     }
     const auto cut = [&](int k) {
-        return total * static_cast<std::uint64_t>(k) / static_cast<std::uint64_t>(parts);
+        return static_cast<std::ptrdiff_t>(batches.size() * static_cast<std::uint64_t>(k) /
+                                           static_cast<std::uint64_t>(parts));
     };
-    const BatchRange ours{cut(part - 1), cut(part)};
-    std::uint64_t before = 0;
-    for (std::size_t k = 0; k < layers_.size(); ++k) {
-        const BatchRange share = common({before, before + rounds[k].size()}, ours);
-        layers_[k].plan(
-            {share.begin - before + rounds[k].begin, share.end - before + rounds[k].begin});
-        before += rounds[k].size();
-    }
+    for (auto at = batches.begin() + cut(part - 1); at != batches.begin() + cut(part); ++at)
+        if (!layers_[at->first].has(at->second)) layers_[at->first].plan(at->second);
 }
 
 }  // namespace asperity

@@ -37,8 +37,9 @@ class LayerInWork {
     /// The round under way, or nothing if all is done: the batches of it that were not looked at
     /// before, with those that are missing among earlier ones.
     BatchRange round();
-    /// Lists the batches of `range` that are not done as those to do.
-    void plan(BatchRange range);
+    bool has(std::uint64_t batch) const { return sums_.done.contains(batch); }
+    /// Adds one to those to do.
+    void plan(std::uint64_t batch) { to_do_.push_back(batch); }
     /// Leaves what was taken out of the sums; it stays known as done.
     void leave_out();
     const std::vector<std::uint64_t>& to_do() const { return to_do_; }
@@ -76,8 +77,9 @@ class LayersInWork {
     /// Goes on from the layers of an earlier result.
     void take(const Measurement& so_far);
     /// Lists in each layer the batches of its round that are to be done: share number `part` of
-    /// `parts`, counted over all layers one after the other.
-    void share_out(int part, int parts);
+    /// `parts`, counted over all layers one after the other, over those that are missing alone if
+    /// so asked: then a share depends on what is done.
+    void share_out(int part, int parts, bool of_missing);
 
   private:
     const SumShape shape_;

@@ -66,7 +66,7 @@ class Gonioreflectometer {
             layers_.take(*scope.so_far);
             head_.trace_seconds = scope.so_far->trace_seconds;
         }
-        layers_.share_out(scope.part, scope.parts);
+        layers_.share_out(scope.part, scope.parts, scope.leave_out_so_far);
         for (std::size_t k = 0; k < layers_.size(); ++k) {
             if (scope.leave_out_so_far) layers_[k].leave_out();
             if (layers_[k].to_do().empty())

@@ -35,7 +35,7 @@ struct MeasureScope {
     /// complete: `merge` (gonio/merge.h) adds them up. A share may be nothing.
     int part = 1, parts = 1;
     /// The result is to hold the new batches alone, so that those of many parts can be added to one
-    /// `so_far` that all of them have.
+    /// `so_far` that all of them have; a share is one of those that are missing.
     bool leave_out_so_far = false;
 };
 

@@ -241,8 +241,8 @@ TEST(KnownFacets, TakeNoLessThanTheirShareBesideSteepOnes) {
         const KnownFacets known = known_on(
             surface, tracer, detector, Incidence{1, radians(89.9), radians(90), false}, fresnel);
         const double absorbed = 1 - fresnel_conductor(std::cos(radians(89.9)), 0.156, 3.602);
-        ASSERT_EQ(known.light().cells().size(), 1u) << depth;
-        const double sent = std::ldexp(static_cast<double>(known.light().energy(0, 0)), -32);
+        ASSERT_EQ(known.light()->places.size(), 1u) << depth;
+        const double sent = std::ldexp(static_cast<double>(known.light()->energy[0]), -32);
         EXPECT_NEAR((1 - sent) / absorbed, 1, 3e-4) << depth;
     }
 }
