@@ -114,13 +114,16 @@ std::string io::contradiction(const Measurement& m) {
         if (!sizes_fit(m, layer)) return in_layer("an array has the wrong size");
         if (!(layer.theta_i >= 0 && layer.theta_i < 0.5 * kPi && std::isfinite(layer.phi_i)))
             return in_layer("no incident direction");
-        if (!layer.spread.squares.empty() &&
-            layer.spread.done.count() != static_cast<std::uint64_t>(layer.batches))
-            return in_layer("the batches done are not as many as it has");
         if (const std::string why = imbalance(layer, m.shape(), m.channel_names); !why.empty())
             return in_layer(why);
     }
-    return out_of_range(m);
+    if (std::string why = out_of_range(m); !why.empty()) return why;
+    for (const Layer& layer : m.layers)
+        if (!layer.spread.squares.empty() &&
+            layer.spread.done.count() != static_cast<std::uint64_t>(layer.batches))
+            return fmt::format("layer {}: the batches done are not as many as it has",
+                               layer.number);
+    return {};
 }
 
 }  // namespace asperity
