@@ -106,6 +106,32 @@ std::string single_reflection_failure(Run& run) {
                      0.01)});
 }
 
+/// The thesis' surface of roughness 0.2: what leaves after one and after two reflections, on each
+/// engine, as that other program finds it.
+std::string thesis_failure(const char* engine, Run& run) {
+    SurfaceSettings settings;
+    settings.kind = "thesis";
+    settings.size = 256;
+    settings.roughness = 0.2;
+    Experiment e;
+    e.illumination.theta_deg = {0, 60};
+    e.illumination.phi_deg = {0, 45, 135};
+    e.detector.resolution = 16;
+    e.run.rays = 16384;
+    e.run.engine = engine;
+    const Measurement m = measure(make_surface(settings, run), e, run);
+    const auto one = [&](std::size_t layer) { return m.albedo(m.layers.at(layer), 0, 0); };
+    constexpr double kTolerance = 0.02;
+    return first_of(
+        {expect_near("one reflection from 0 degrees", one(0), 0.337, kTolerance),
+         expect_near("two reflections from 0 degrees", m.albedo(m.layers.at(0), 1, 0), 0.511,
+                     kTolerance),
+         expect_near("one reflection from 60 degrees along x", one(3), 0.744, kTolerance),
+         expect_near("one reflection from 60 degrees across the ridges", one(4), 0.874, kTolerance),
+         expect_near("one reflection from 60 degrees along the ridges", one(5), 0.599,
+                     kTolerance)});
+}
+
 /// Between layers at 42 and 54 degrees, whose albedos differ, a quarter of the way.
 std::string interpolated_failure(Run& run) {
     SurfaceSettings settings;
@@ -152,6 +178,13 @@ std::string models_failure() {
         if (!(one[0] > 0) || std::abs(one[0] / other[0] - 1) > 1e-12)
             return fmt::format("{} is not reciprocal", spec);
     }
+    // Along the normal nothing is hidden: f = D / 4, and D = 1 / (pi alpha_x alpha_y)
+    for (const char* spec : {"ggx:alpha=0.3,alpha_y=0.6", "beckmann:alpha=0.3,alpha_y=0.6"}) {
+        parse_brdf_spec(spec)->eval({0, 0, 1}, {0, 0, 1}, one);
+        const std::string failure = expect_near(fmt::format("f of {} along the normal", spec),
+                                                one[0], 1 / (4 * kPi * 0.3 * 0.6), 1e-12);
+        if (!failure.empty()) return failure;
+    }
     lambert->eval({0, 0, 1}, from_spherical(1, 1), one);
     return first_of(
         {expect_near("the albedo of GGX, alpha 1", albedo_at(*ggx, 0, 0), 1 - std::log(2.0), 1e-3),
@@ -168,6 +201,9 @@ void check_statistics(Run& run, const CheckReport& report) {
               [&] { return gaussian_lobe_failure(run); });
     run_check(run, report, "Gaussian, alpha 0.5: energy of single reflection",
               [&] { return single_reflection_failure(run); });
+    for (const char* engine : {"wide", "plain"})
+        run_check(run, report, fmt::format("Thesis, roughness 0.2: reflections, {} engine", engine),
+                  [&] { return thesis_failure(engine, run); });
     run_check(run, report, "Between layers: albedo and lobe at 45 degrees from 42 and 54",
               [&] { return interpolated_failure(run); });
     run_check(run, report, "Models: 1 - ln 2 of GGX, reciprocity, Lambert",

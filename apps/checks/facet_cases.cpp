@@ -28,10 +28,12 @@ Heightfield four_slopes(double a, double b) {
     Heightfield surface;
     surface.name = "four slopes";
     surface.nx = surface.ny = kSide;
+    surface.dy = 1.5;
     const auto ridge = [](int i) { return std::min(i, kSide - i); };
     for (int j = 0; j < kSide; ++j)
         for (int i = 0; i < kSide; ++i)
-            surface.heights.push_back(static_cast<float>(a * ridge(i) + b * ridge(j)));
+            surface.heights.push_back(
+                static_cast<float>(a * ridge(i) * surface.dx + b * ridge(j) * surface.dy));
     return surface;
 }
 

@@ -21,8 +21,9 @@ OpticsSettings metal(double n, double k);
 /// from Fresnel's equations in complex numbers.
 double reflectance(double cosine, double n, double k);
 
-/// Ridges of slopes +-a in x plus ridges of slopes +-b in y, a crease every `kSide` / 2 samples:
-/// four facets, each over a quarter of the tile. b = 0: V-grooves along y.
+/// Ridges of slopes +-a in x plus ridges of slopes +-b in y, a crease every `kSide` / 2 samples,
+/// which lie wider in y than in x: four facets, each over a quarter of the tile. b = 0: V-grooves
+/// along y.
 Heightfield four_slopes(double a, double b);
 
 /// A level tile with a trench of the depth along y, one cell of wall, ground and wall.

@@ -34,8 +34,20 @@ std::string angle(double theta) {
     return fmt::format("{:.4g}°", degrees(theta));
 }
 
+/// As many digits as the error has two of, five at least.
 std::string with_error(double value, double error) {
-    return fmt::format("{:.5f} ± {:.5f}", value, error);
+    constexpr int kLeast = 5, kMost = 17;
+    if (error == 0) return fmt::format("{:.{}f} exact", value, kLeast);
+    const int digits =
+        std::isfinite(error)
+            ? std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), kLeast, kMost)
+            : kLeast;
+    return fmt::format("{:.{}f} ± {:.{}f}", value, digits, error, digits);
+}
+
+/// Four decimals, or what is left of a smaller figure.
+std::string distance(double value) {
+    return value > 0 && value < 5e-5 ? fmt::format("{:.1e}", value) : fmt::format("{:.4f}", value);
 }
 
 const LayerComparison* comparison_of(const Layer& layer, const Comparison& comparison) {
@@ -97,8 +109,8 @@ class LayerTable {
         if (edge_) cells.push_back(share(layer.edge));
         if (comparison_) {
             const LayerComparison* found = comparison_of(layer, *comparison_);
-            cells.push_back(found ? fmt::format("{:.4f}", found->l1) : "-");
-            cells.push_back(found ? fmt::format("{:.4f}", found->l1_noise) : "-");
+            cells.push_back(found ? distance(found->l1) : "-");
+            cells.push_back(found ? distance(found->l1_noise) : "-");
         }
         return cells;
     }

@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import re
 import struct
 import subprocess
 import sys
@@ -96,6 +97,19 @@ class Simulate(ProgramTest):
             self.assertIn(words, text)
         self.assertEqual(sum("°" in line for line in text.splitlines()), 15)
         self.assertNotIn("edge loss", text)
+
+    def test_errors_have_digits(self):
+        self.assertIn("1.00000 exact", self.passes("simulate", "--surface", "flat", *SMALL,
+                                                   "--theta", 0, "-o", "r.asperity"))
+        # Gold in grazing light: errors of some 1e-6
+        text = self.passes("simulate", "--surface", "vgroove:tilt=1", "--size", 64, "--rays",
+                           100000, "--resolution", 16, "--theta", "10", "--launch", "random",
+                           "--fresnel", "conductor", "--material", "Ag", "--wavelengths", 550,
+                           "-o", "r.asperity")
+        value, error = re.search(r"(\d\.\d+) ± (\d\.\d+)", text).groups()
+        self.assertGreater(float(error), 0)
+        self.assertEqual(len(value), len(error))
+        self.assertGreaterEqual(len(error.lstrip("0.")), 2)
 
     def test_json_keys(self):
         self.passes("simulate", "--surface", "thesis", *SMALL, "--bounces", 3, "--fresnel",

@@ -7,7 +7,7 @@
 namespace asperity {
 
 /// Calls body(k) for every k in [0, count) on up to `threads` threads and returns when all are
-/// done.
+/// done. Where the system does not give so many, there are fewer, or the caller's alone.
 ///
 /// The order of the calls is not defined, so a body may only write what belongs to its k. The first
 /// exception thrown by a body is thrown again here; the remaining calls may be left out.

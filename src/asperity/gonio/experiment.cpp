@@ -18,6 +18,11 @@ void require(bool holds, const char* setting, std::string message) {
 void validate(const IlluminationSettings& s) {
     check_all(illumination_params(), s);
     require(!s.phi_deg.empty(), "phi", "needs at least one azimuth");
+    const std::size_t angles =
+        s.theta_deg.empty() ? static_cast<std::size_t>(s.layers) : s.theta_deg.size();
+    require(s.phi_deg.size() <= kMostLayers / angles, s.phi_deg.size() > 1 ? "phi" : "theta",
+            fmt::format("{} polar angles x {} azimuths are more than {} layers", angles,
+                        s.phi_deg.size(), kMostLayers));
     require(!s.isotropic || s.phi_deg.size() == 1, "phi",
             "an isotropic measurement has no incident azimuths");
 }

@@ -6,6 +6,7 @@
 #include <asperity/optics/optics_settings.h>
 #include <asperity/surface/surface_settings.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -39,6 +40,9 @@ struct Experiment {
     DetectorSettings detector;
     RunSettings run;
 };
+
+/// Layers of an experiment at most: polar angles times azimuths.
+inline constexpr std::size_t kMostLayers = 100000;
 
 /// Throws Error(Usage, "name of the setting") for the first value outside its range. Surface and
 /// optics are checked by make_surface and Fresnel.

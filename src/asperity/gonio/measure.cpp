@@ -12,6 +12,7 @@
 #include <asperity/gonio/layer_schedule.h>
 #include <asperity/gonio/measurement_check.h>
 #include <asperity/gonio/measurement_head.h>
+#include <asperity/gonio/memory_need.h>
 #include <asperity/tracing/engine.h>
 #include <asperity/tracing/scale.h>
 #include <fmt/format.h>
@@ -221,6 +222,7 @@ class Gonioreflectometer {
 Measurement measure(const Heightfield& surface, const Experiment& experiment, Run& run,
                     const MeasureListener& listener, MeasureScope scope) {
     validate(experiment);
+    require_memory_for(surface, experiment);
     validate(surface, surface.name);
     if (scope.parts < 1 || scope.part < 1 || scope.part > scope.parts)
         throw Error(ErrorCode::Usage, "a part is one of 1/N to N/N", "part");

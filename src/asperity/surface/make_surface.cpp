@@ -2,6 +2,7 @@
 #include <asperity/surface/make_surface.h>
 
 #include <asperity/core/error.h>
+#include <asperity/core/memory.h>
 #include <asperity/core/parse_number.h>
 #include <asperity/surface/blocks.h>
 #include <asperity/surface/check_settings.h>
@@ -57,6 +58,8 @@ Heightfield make_checked(const SurfaceKind& kind, const SurfaceSettings& setting
     surface.isotropic = kind.isotropic && kind.isotropic(settings);
     surface.name = kind.describe ? kind.describe(settings) : default_name(kind, settings);
     const auto size = static_cast<std::size_t>(settings.size);
+    require_memory(kind.bytes_per_sample * size * size,
+                   fmt::format("a surface of {0} x {0} samples", size));
     run.begin("surface", kind.steps ? kind.steps(settings) : size);
     allocate(surface.heights, size * size, run);
     kind.fill(surface, settings, run);

@@ -38,6 +38,8 @@ struct SurfaceKind {
     std::function<bool(const SurfaceSettings&)> isotropic = {};
     /// The name of the surface, a line. Not set: the kind and the settings it uses.
     std::function<std::string(const SurfaceSettings&)> describe = {};
+    /// Memory it takes at least while it is made, the heights included.
+    std::uint64_t bytes_per_sample = sizeof(float);
 };
 
 /// All kinds that can be made, in the order of lists: those of the library, then those added.

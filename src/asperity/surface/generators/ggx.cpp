@@ -47,6 +47,7 @@ SurfaceKind ggx() {
             },
         .isotropic = random_field_is_isotropic,
         .describe = random_field_name,
+        .bytes_per_sample = 8,
     };
 }
 
