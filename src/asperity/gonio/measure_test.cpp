@@ -243,6 +243,21 @@ TEST(Measure, AsksAboutUnitsInPlaceOfGoingOnForever) {
     EXPECT_FALSE(refused(1000, 80));
 }
 
+TEST(Measure, SaysThatDielectricsDoNotPolarise) {
+    const auto notes = [](FresnelKind kind, int bounces) {
+        Experiment e = small_experiment();
+        e.run.rays = 100;
+        e.run.bounces = bounces;
+        e.optics.fresnel = kind;
+        if (kind == FresnelKind::Dielectric) e.optics.ior = {1.5};
+        return measured(noise(16, 1), e).notes;
+    };
+    EXPECT_TRUE(notes(FresnelKind::None, 5).empty());
+    EXPECT_TRUE(notes(FresnelKind::Dielectric, 1).empty());
+    ASSERT_EQ(notes(FresnelKind::Dielectric, 5).size(), 1u);
+    EXPECT_NE(notes(FresnelKind::Dielectric, 5)[0].find("polarisations"), std::string::npos);
+}
+
 TEST(Measure, JitterIsRaysPerCell) {
     const Heightfield s = noise(48, 1);
     Experiment e = small_experiment();
