@@ -11,6 +11,7 @@ namespace asperity::detail {
 namespace {
 
 constexpr double kAtEnd = 1e-4;  ///< of the range, and nearer to an end than that is at it
+constexpr int kMostSteps = 40;   ///< towards an end of a range the way is long and leads nowhere
 
 /// The parameters between their ends as angles: value = middle + half the range times sin(angle).
 class Ranges {
@@ -108,8 +109,8 @@ Solution solve(const Residuals& residuals, const std::vector<double>& start, dou
     Functor functor{residuals, Ranges(residuals.model().free)};
     Eigen::VectorXd x = functor.ranges.angles(start);
     Eigen::LevenbergMarquardt<Functor> solver(functor);
-    solver.parameters.maxfev = 200;
-    solver.parameters.xtol = 1e-8;
+    solver.parameters.maxfev = kMostSteps;
+    solver.parameters.xtol = 1e-6;
     solver.parameters.ftol = precision;
     solver.minimize(x);
     Solution solution;
