@@ -48,6 +48,7 @@
 #include <asperity/gonio/experiment_text.h>
 #include <asperity/gonio/measure.h>
 #include <asperity/gonio/measurement.h>
+#include <asperity/gonio/merge.h>
 #include <asperity/measured/albedo_by_angle.h>
 #include <asperity/measured/baked_brdf.h>
 #include <asperity/measured/compare.h>

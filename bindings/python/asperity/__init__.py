@@ -25,7 +25,8 @@ from ._bsdf import Bsdf, OwnBsdf, bsdf
 from ._compare import Comparison, compare
 from ._errors import Error, ErrorCode, StoppedWarning
 from ._export import Export, Fidelity
-from ._measurement import Measurement, load, measure
+from ._fit import Fit, FitReport, fit
+from ._measurement import Measurement, load, measure, merge
 from ._render import light, render, tonemap
 from ._made import *
 from ._run import Progress
@@ -39,9 +40,9 @@ if TYPE_CHECKING:
 __version__: str = _core.version
 
 __all__ = [
-    "Bsdf", "Comparison", "Error", "ErrorCode", "Export", "Fidelity", "Measurement", "OwnBsdf", "Progress",
-    "StoppedWarning", "Surface", "Sweep", "bsdf", "bsdf_formats", "bsdf_models", "compare", "from_array",
-    "heights_formats", "light", "load", "materials", "measure", "plot", "read", "render", "scene_models", "settings",
+    "Bsdf", "Comparison", "Error", "ErrorCode", "Export", "Fidelity", "Fit", "FitReport", "Measurement", "OwnBsdf", "Progress",
+    "StoppedWarning", "Surface", "Sweep", "bsdf", "bsdf_formats", "bsdf_models", "compare", "fit", "from_array",
+    "heights_formats", "light", "load", "materials", "measure", "merge", "plot", "read", "render", "scene_models", "settings",
     "surface", "surface_kinds", "sweep", "tonemap"]
 __all__ += _made.__all__
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 import functools
 import os
 import tempfile
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -294,8 +295,9 @@ def measure_keywords() -> dict[str, str]:
     return _settings.keywords(_settings.MEASURE_GROUPS)
 
 
-def measure(surface: Surface, *, progress: ProgressArgument = False, stop: StopArgument = None,
-            threads: int | None = None, **settings: "Unpack[MeasureSettings]") -> Measurement:
+def measure(surface: Surface, *, so_far: Measurement | None = None, part: str | None = None,
+            progress: ProgressArgument = False, stop: StopArgument = None, threads: int | None = None,
+            **settings: "Unpack[MeasureSettings]") -> Measurement:
     """Shoots light at a surface, follows it from facet to facet, and sorts what leaves by direction.
 
     Settings are keywords, those of the command line with `_` for `-` and angles in names that end in `_deg`
@@ -307,16 +309,42 @@ def measure(surface: Surface, *, progress: ProgressArgument = False, stop: StopA
     `stop` is a function that is asked as often and says True to stop. A run that is stopped by it or by Ctrl-C
     ends within 100 ms and gives what is complete, `stopped` set; Ctrl-C also warns (`StoppedWarning`), and
     raises KeyboardInterrupt where nothing is complete. The interpreter's lock is released.
+
+    `so_far` is a result of the same experiment, stopped perhaps, or measured to a looser `until`: what it holds is not
+    done again, and the result has the bits of a run that did all of it. part="3/8" does the third of eight shares,
+    counted from 1, which `asperity.merge()` adds up.
     """
     if not isinstance(surface, Surface):
         raise Error(f"a {type(surface).__name__} is no Surface: asperity.from_array() makes one of heights",
                     place="surface")
     texts = _settings.texts_of(settings, measure_keywords())
+    if so_far is not None and not isinstance(so_far, Measurement):
+        raise Error(f"a {type(so_far).__name__} is no Measurement", place="so_far")
+    number, parts = _share(part)
     with Task(progress, stop) as task:
-        handle, interrupted = _core.measure(surface._handle, texts, thread_count(threads), task.callbacks)
+        handle, interrupted = _core.measure(surface._handle, texts, thread_count(threads), task.callbacks,
+                                            so_far and so_far._handle, number, parts)
     if interrupted:
         warn_stopped()
     return Measurement(handle)
+
+
+def _share(part: str | None) -> tuple[int, int]:
+    if part is None:
+        return 1, 1
+    number, slash, parts = str(part).partition("/")
+    if not (slash and number.isdigit() and parts.isdigit() and 1 <= int(number) <= int(parts) < 2**31):
+        raise Error(f"{part!r} is not K/N with 1 <= K <= N", place="part")
+    return int(number), int(parts)
+
+
+def merge(parts: Iterable[Measurement]) -> Measurement:
+    """Adds up the parts of one experiment, in any order, to the bits of a run that did all of it. Refuses parts of
+    different experiments, one that is there twice, and names what is missing."""
+    listed = list(parts)
+    if not all(isinstance(p, Measurement) for p in listed):
+        raise Error("takes measurements", place="parts")
+    return Measurement(_core.merge([p._handle for p in listed]))
 
 
 def load(path: PathArgument) -> Measurement:

@@ -8,7 +8,7 @@ import html
 import os
 import pathlib
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
@@ -219,12 +219,14 @@ def _read_by_surface_topography(path: str, error: Error, settings: dict[str, Any
         return None
     try:
         topography = open_topography(path).topography()
+        # Theirs is [x, y], ours [row, column]; the first row of a file is the first of both
         heights = np.ma.filled(np.ma.asarray(topography.heights(), dtype=np.float64), np.nan).T
-        spacing = tuple(float(s) / n for s, n in zip(topography.physical_sizes, topography.nb_grid_pts))
-        unit = topography.unit
+        dx, dy = (float(size) / count for size, count in zip(topography.physical_sizes, topography.nb_grid_pts))
+        unit = topography.unit or "cell"
     except Exception:
-        return None
-    return from_array(heights, spacing=spacing, unit=unit or "cell", name=path, **settings)
+        return None  # what our readers said is told
+    found = f"read by SurfaceTopography; heights in {unit}; spacing {dx:.6g} {unit}"
+    return _of_heights(heights, (dx, dy), unit, path, False, found, settings)
 
 
 def _spacing_of(spacing: float | Sequence[float]) -> tuple[float, float]:
@@ -261,18 +263,23 @@ def from_array(z: npt.ArrayLike, spacing: float | Sequence[float] = 1.0, unit: s
     heights = np.asarray(np.ma.filled(np.ma.asarray(z), np.nan) if isinstance(z, np.ma.MaskedArray) else z)
     if heights.dtype.kind not in "fiub" or heights.ndim != 2:
         raise Error(f"an array of {heights.dtype} of shape {heights.shape} is no grid of heights", place="z")
-    dx, dy = _spacing_of(spacing)
-    scale = _scale_of(unit)
+    for keyword in ("cell_size", "format", "channel", "decimal"):
+        if settings.get(keyword) is not None:
+            raise Error("is for files; say the spacing with spacing=" if keyword == "cell_size"
+                        else "is for files", place=keyword)
+    return _of_heights(heights, _spacing_of(spacing), unit, name, isotropic, "", settings)
+
+
+def _of_heights(heights: npt.NDArray[Any], spacing: tuple[float, float], unit: str, name: str | None, isotropic: bool,
+                found: str, settings: Mapping[str, Any]) -> Surface:
+    (dx, dy), scale = spacing, _scale_of(unit)
     grid = np.ascontiguousarray(heights, dtype=np.float64)
     if scale is not None:
         grid, dx, dy = grid * scale, dx * scale, dy * scale
     if name is None:
         digest = hashlib.sha256(grid.tobytes() + repr((grid.shape, dx, dy, unit)).encode()).hexdigest()
         name = f"array-{digest[:16]}"
-    for keyword in ("cell_size", "format", "channel", "decimal"):
-        if settings.get(keyword) is not None:
-            raise Error("is for files; say the spacing with spacing=" if keyword == "cell_size"
-                        else "is for files", place=keyword)
     texts = _settings.texts_of(settings, file_keywords())
     return Surface(_core.surface_from_array(
-        grid, (dx, dy), "cell" if scale is None else "m", name, [("surface", f"file:{name}"), *texts], isotropic))
+        grid, (dx, dy), "cell" if scale is None else "m", name, [("surface", f"file:{name}"), *texts], isotropic,
+        found))

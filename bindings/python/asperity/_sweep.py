@@ -90,8 +90,8 @@ def plan(experiments: Experiments, folder: str) -> tuple[list[dict[str, Any]], l
 
 
 def sweep(experiments: Experiments, folder: PathArgument, *, processes: int = 1, threads: int | None = None,
-          client: Any = None, progress: ProgressArgument = False, stop: StopArgument = None,
-          on_error: str = "raise") -> Sweep:
+          client: Any = None, part: str | None = None, progress: ProgressArgument = False,
+          stop: StopArgument = None, on_error: str = "raise") -> Sweep:
     """Measures many experiments into `folder`: one result file for each, and a table of all, sweep.csv.
 
     `experiments` is a list of dicts of keywords, or one dict, of which every list is an axis and every combination
@@ -103,7 +103,8 @@ def sweep(experiments: Experiments, folder: PathArgument, *, processes: int = 1,
     is there is not measured again: a sweep that was stopped, or killed, goes on where it was, and ends with the same
     files and the same table. The bits do not depend on who measures: this process, `processes` of them, each with
     `threads` (all of the machine's, shared evenly, where not given), or the workers of a Dask `client`, which
-    must see the same folder.
+    must see the same folder. part="3/32" measures every 32nd experiment from the third on, for arrays of jobs (see
+    `python -m asperity sweep --help`), and writes no table: the whole sweep, once all parts are there, does.
 
     `progress` counts experiments. What fails does not keep the others from being measured; at the end the first
     error is raised, or with on_error="keep" told in `Sweep.errors`. Stopped by Ctrl-C it raises KeyboardInterrupt,
@@ -115,6 +116,9 @@ def sweep(experiments: Experiments, folder: PathArgument, *, processes: int = 1,
         raise Error(f"{processes!r} is not a whole number from 1", place="processes")
     place = os.path.abspath(os.fspath(folder))
     listed, jobs = plan(experiments, place)
+    if part is not None:
+        chosen = _part(part, len(jobs))
+        listed, jobs = [listed[k] for k in chosen], [jobs[k] for k in chosen]
     told = _Teller(len(jobs), progress, stop)
     unique = list({job.file: job for job in jobs}.values())
     if client is not None:
@@ -125,13 +129,21 @@ def sweep(experiments: Experiments, folder: PathArgument, *, processes: int = 1,
     told.close()
     errors = [wrong.get(job.file, "") for job in jobs]
     result = Sweep(listed, [job.file for job in jobs], errors, os.path.join(place, "sweep.csv"))
-    result._rows = _rows_of(listed, jobs, errors)
-    _jobs.write_whole(result.table_file, _csv(result._rows).encode())
+    if part is None:
+        result._rows = _rows_of(listed, jobs, errors)
+        _jobs.write_whole(result.table_file, _csv(result._rows).encode())
     failed = [(k, e) for k, e in enumerate(errors) if e]
     if failed and on_error == "raise":
         raise Error(f"{len(failed)} of {len(jobs)} failed, the first: {failed[0][1]}", ErrorCode.INVALID_INPUT,
                     f"experiment {failed[0][0]}")
     return result
+
+
+def _part(part: str, count: int) -> range:
+    number, slash, parts = part.partition("/")
+    if not (slash and number.isdigit() and parts.isdigit() and 1 <= int(number) <= int(parts)):
+        raise Error(f"{part!r} is not K/N with 1 <= K <= N", place="part")
+    return range(int(number) - 1, count, int(parts))
 
 
 class _Teller:

@@ -36,6 +36,7 @@ NB_MODULE(_core, module) {
     add_measurements(module);
     add_bsdfs(module);
     add_comparisons(module);
+    add_fits(module);
     add_exports(module);
     add_renders(module);
 }

@@ -5,6 +5,7 @@
 
 #include <asperity/bsdf/bsdf.h>
 #include <asperity/gonio/measurement.h>
+#include <asperity/params/param.h>
 #include <asperity/surface/heightfield.h>
 #include <asperity/surface/surface_settings.h>
 #include <nanobind/nanobind.h>
@@ -38,12 +39,16 @@ struct BsdfHandle {
 SurfaceSettings surface_settings(const SettingTexts& texts);
 nb::dict statistics_of(const SurfaceStatistics& statistics);
 
+/// What Python is told of a setting.
+nb::dict setting_row(const ParamInfo& info, const std::string& otherwise);
+
 void add_settings(nb::module_& module);
 void add_surfaces(nb::module_& module);
 void add_measurements(nb::module_& module);
 void add_layer_arrays(nb::class_<MeasurementHandle>& measurement);
 void add_bsdfs(nb::module_& module);
 void add_comparisons(nb::module_& module);
+void add_fits(nb::module_& module);
 void add_exports(nb::module_& module);
 void add_renders(nb::module_& module);
 

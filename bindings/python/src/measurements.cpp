@@ -9,14 +9,18 @@
 #include <asperity/gonio/experiment_params.h>
 #include <asperity/gonio/experiment_text.h>
 #include <asperity/gonio/measure.h>
+#include <asperity/gonio/merge.h>
 #include <asperity/optics/fresnel.h>
 #include <asperity/pictures/pictures.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace asperity::python {
 
@@ -46,14 +50,21 @@ Experiment experiment_of(const SurfaceSettings& surface, std::uint64_t cells,
     return experiment;
 }
 
+/// `so_far` and `part` of `parts` as MeasureScope has them.
 nb::tuple run_measurement(const SurfaceHandle& surface, const SettingTexts& texts, int threads,
-                          const Callbacks& callbacks) {
+                          const Callbacks& callbacks,
+                          const std::optional<MeasurementHandle>& so_far, int part, int parts) {
     const Experiment experiment =
         experiment_of(surface.settings, surface.heights->cell_count(), texts);
     validate(experiment);
     Run run(threads);
     auto outcome = run_task(run, callbacks, [&] {
-        return std::make_shared<const Measurement>(measure(*surface.heights, experiment, run));
+        MeasureScope scope;
+        if (so_far) scope.so_far = *so_far->measurement;
+        scope.part = part;
+        scope.parts = parts;
+        return std::make_shared<const Measurement>(
+            measure(*surface.heights, experiment, run, {}, std::move(scope)));
     });
     if (outcome.value->stopped && outcome.value->layers.empty()) {
         if (!outcome.interrupted)
@@ -62,6 +73,14 @@ nb::tuple run_measurement(const SurfaceHandle& surface, const SettingTexts& text
         throw nb::python_error();
     }
     return nb::make_tuple(MeasurementHandle{std::move(outcome.value)}, outcome.interrupted);
+}
+
+MeasurementHandle merged(const std::vector<MeasurementHandle>& parts) {
+    const nb::gil_scoped_release free;
+    Merge merge;
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        merge.add(*parts[k].measurement, "part " + std::to_string(k));
+    return {std::make_shared<const Measurement>(merge.finish())};
 }
 
 nb::dict experiment_dict(const Experiment& experiment) {
@@ -170,7 +189,9 @@ void add_measurements(nb::module_& module) {
     add_layer_arrays(m);
     module.def("is_result", [](const std::string& path) { return io::looks_like_result(path); });
     module.def("measure", run_measurement, nb::arg("surface"), nb::arg("settings"),
-               nb::arg("threads"), nb::arg("callbacks"));
+               nb::arg("threads"), nb::arg("callbacks"), nb::arg("so_far").none() = nb::none(),
+               nb::arg("part") = 1, nb::arg("parts") = 1);
+    module.def("merge", merged, nb::arg("parts"));
     module.def("experiment_text", experiment_text, nb::arg("surface"), nb::arg("settings"));
 }
 

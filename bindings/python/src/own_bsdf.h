@@ -5,10 +5,13 @@
 #include "arrays.h"
 
 #include <asperity/bsdf/bsdf.h>
+#include <asperity/core/error.h>
 
 #include <array>
+#include <exception>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -58,16 +61,26 @@ class OwnBsdf final : public Bsdf {
     mutable std::vector<Pair> asked_;
 };
 
-/// What work(bsdf) gives once Python has answered all that it asks.
+/// What work(bsdf) gives once Python has answered all that it asks. Until then work may also fail:
+/// what is not known yet is 0.
 template <typename Work>
 auto with_answers(OwnBsdf& bsdf, Work&& work) {
+    using Result = decltype(work(static_cast<const Bsdf&>(bsdf)));
     for (;;) {
-        auto result = [&] {
+        std::optional<Result> result;
+        std::exception_ptr failure;
+        {
             const nb::gil_scoped_release free;
-            return work(static_cast<const Bsdf&>(bsdf));
-        }();
+            try {
+                result.emplace(work(static_cast<const Bsdf&>(bsdf)));
+            } catch (const Error&) {
+                failure = std::current_exception();
+            }
+        }
         if (PyErr_CheckSignals() != 0) throw nb::python_error();
-        if (!bsdf.answer()) return result;
+        if (bsdf.answer()) continue;
+        if (failure) std::rethrow_exception(failure);
+        return std::move(*result);
     }
 }
 

@@ -38,7 +38,9 @@ const char* type_name(ParamType type) {
     return "text";
 }
 
-nb::dict row(const ParamInfo& info, const std::string& otherwise) {
+}  // namespace
+
+nb::dict setting_row(const ParamInfo& info, const std::string& otherwise) {
     nb::dict d;
     d["name"] = info.name;
     d["label"] = label(info);
@@ -54,10 +56,12 @@ nb::dict row(const ParamInfo& info, const std::string& otherwise) {
     return d;
 }
 
+namespace {
+
 nb::list settings() {
     nb::list rows;
     for (const Param<Experiment>& param : experiment_params())
-        rows.append(row(param.info, param.default_text()));
+        rows.append(setting_row(param.info, param.default_text()));
     return rows;
 }
 
@@ -93,7 +97,8 @@ nb::list models() {
     nb::list rows;
     for (const BsdfModel& model : bsdf_models()) {
         nb::list params;
-        for (const BsdfParam& param : model.params) params.append(row(param.info, param.otherwise));
+        for (const BsdfParam& param : model.params)
+            params.append(setting_row(param.info, param.otherwise));
         nb::dict d;
         d["name"] = model.name;
         d["label"] = model.label;

@@ -52,7 +52,7 @@ using HeightsArray = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::de
 /// `where` names the array in messages. NaN stands for a missing point.
 SurfaceHandle from_array(const HeightsArray& z, std::pair<double, double> spacing,
                          const std::string& unit, const std::string& name,
-                         const SettingTexts& texts, bool isotropic) {
+                         const SettingTexts& texts, bool isotropic, const std::string& found) {
     SurfaceSettings settings = surface_settings(texts);
     const std::size_t ny = z.shape(0), nx = z.shape(1);
     Topography topography = io::empty_topography(nx, ny, name);
@@ -61,6 +61,7 @@ SurfaceHandle from_array(const HeightsArray& z, std::pair<double, double> spacin
     topography.unit = unit;
     topography.name = name;
     topography.isotropic = isotropic;
+    if (!found.empty()) topography.note(found);
     topography.heights.assign(z.data(), z.data() + nx * ny);
     for (std::size_t k = 0; k < nx * ny; ++k)
         if (std::isnan(topography.heights[k])) topography.mark_missing(k);
@@ -192,7 +193,7 @@ void add_surfaces(nb::module_& module) {
 
     module.def("load_surface", load, nb::arg("settings"), nb::arg("threads"), nb::arg("callbacks"));
     module.def("surface_from_array", from_array, nb::arg("z"), nb::arg("spacing"), nb::arg("unit"),
-               nb::arg("name"), nb::arg("settings"), nb::arg("isotropic"));
+               nb::arg("name"), nb::arg("settings"), nb::arg("isotropic"), nb::arg("found") = "");
 }
 
 }  // namespace asperity::python

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-import shutil
+import pathlib
+import sys
 
 import matplotlib
 import pytest
@@ -12,8 +13,8 @@ import asperity  # noqa: E402
 @pytest.fixture(scope="session")
 def program():
     """The command that came along with the package."""
-    path = shutil.which("asperity")
-    assert path, "the package brings no program"
+    path = pathlib.Path(sys.executable).parent / "asperity"
+    assert path.exists(), "the package brings no program"
     return path
 
 

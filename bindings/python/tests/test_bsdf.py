@@ -236,3 +236,30 @@ def test_wrong_scenes_are_told():
     refused(lambda: asperity.render("sphere", width=1.5), ErrorCode.USAGE, "width")
     refused(lambda: asperity.render("sphere", integrator="magic"), ErrorCode.USAGE, "magic")
     refused(lambda: asperity.render("sphere", camera_target=(1, 2)), ErrorCode.USAGE, "camera_target")
+
+
+def test_models_are_fitted(program, tmp_path):
+    import json
+    import subprocess
+
+    # A table of a model gives the model back
+    gold = dict(theta_deg=[0, 30, 60], resolution=32)
+    report = asperity.fit(asperity.bsdf("ggx:alpha=0.35,material=Au"), "ggx:material=Au,beckmann:material=Au", **gold)
+    assert report.best.model.startswith("ggx") and report.best["alpha"] == pytest.approx(0.35, rel=1e-3)
+    assert len(report) == 2 and report[1].misfit > report[0].misfit
+    back = report.best.bsdf().eval([0, 0, 1], [0, 0, 1])
+    np.testing.assert_allclose(back, asperity.bsdf("ggx:alpha=0.35,material=Au").eval([0, 0, 1], [0, 0, 1]), rtol=2e-3)
+    assert "alpha" in str(report) and report.verdict and "<table>" in report._repr_html_()
+    # A measurement gives what the program finds
+    m = asperity.measure(asperity.gaussian(alpha=0.3, size=128), theta_deg=[0, 30, 60], resolution=32, material="Au")
+    m.save(tmp_path / "m.asperity")
+    told = json.loads(subprocess.run([program, "fit", tmp_path / "m.asperity", "--model", "beckmann", "--light", "single",
+                                      "--json"], check=True, capture_output=True, text=True).stdout)
+    best = asperity.fit(m, "beckmann", light="single").best
+    assert best.spec == told["fits"][0]["spec"] and best.mean_l1 == pytest.approx(told["fits"][0]["mean_l1"], rel=1e-12)
+    assert best["alpha"] == pytest.approx(0.3, rel=0.1) and 0 < best.errors["alpha"] < 0.02
+    own = asperity.fit(OfLibrary("ggx:alpha=0.35,material=Au"), "ggx:material=Au", **gold)
+    assert own.best["alpha"] == pytest.approx(0.35, rel=1e-3)
+    refused(lambda: asperity.fit(m, "gxx"), ErrorCode.USAGE, "gxx")
+    refused(lambda: asperity.fit(m, resolution=3), ErrorCode.USAGE, "its own light")
+    refused(lambda: asperity.fit(m, lights="single"), ErrorCode.USAGE, "did you mean 'light'")

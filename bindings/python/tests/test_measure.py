@@ -140,17 +140,24 @@ def stopped_after(run):
     return min(run() for _ in range(3))
 
 
+class Watch:
+    """A progress listener that calls `act` once, when a few batches of a layer are done."""
+
+    def __init__(self, act=lambda: None):
+        self.act, self.enough, self.when = act, False, 0.0
+
+    def __call__(self, progress):
+        if not self.enough and progress.stage == "tracing" and progress.done > 5_000_000:
+            self.enough, self.when = True, time.perf_counter()
+            self.act()
+
+
 def test_stop_gives_what_is_complete(large):
     def run():
-        begin = asked = time.perf_counter()
-
-        def stop():
-            nonlocal asked
-            asked = time.perf_counter()
-            return asked - begin > 0.4
-
-        m = asperity.measure(large, theta_deg=[0, 30], rays=10**9, batches=4096, stop=stop)
-        seconds = time.perf_counter() - asked
+        watch = Watch()
+        m = asperity.measure(large, theta_deg=[0, 30], rays=10**9, batches=4096, progress=watch,
+                             stop=lambda: watch.enough)
+        seconds = time.perf_counter() - watch.when
         assert m.stopped and m.layers >= 1 and 0 < m.rays[0] < 10**9
         np.testing.assert_allclose(m.albedo + m.absorbed + m.truncated + m.edge, 1, rtol=1e-12)
         return seconds
@@ -161,20 +168,16 @@ def test_stop_gives_what_is_complete(large):
 
 def test_ctrl_c_gives_what_is_complete(large):
     def run():
-        pressed = []
-
-        def press():
-            pressed.append(time.perf_counter())
-            os.kill(os.getpid(), signal.SIGINT)
-
-        timer = threading.Timer(0.4, press)
-        timer.start()
+        watch = Watch(lambda: threading.Timer(0.01, os.kill, (os.getpid(), signal.SIGINT)).start())
         with pytest.warns(asperity.StoppedWarning):
-            m = asperity.measure(large, theta_deg=[0], rays=10**9, batches=4096)
+            m = asperity.measure(large, theta_deg=[0], rays=10**9, batches=4096, progress=watch)
         assert m.stopped and m.rays[0] < 10**9
-        return time.perf_counter() - pressed[0]
+        return time.perf_counter() - watch.when - 0.01
 
     assert stopped_after(run) < 0.1
+    with pytest.raises(KeyboardInterrupt):
+        threading.Timer(0.02, os.kill, (os.getpid(), signal.SIGINT)).start()
+        asperity.measure(large, theta_deg=[0], rays=10**9, batches=2)
 
 
 def test_others_run_while_it_measures(large):
@@ -241,3 +244,21 @@ def test_it_is_quickly_there():
     times = [float(subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout)
              for _ in range(3)]
     assert min(times) < 0.2
+
+
+def test_what_was_done_is_not_done_again(rough, large):
+    options = dict(theta_deg=[0, 40], resolution=16, rays=100_000)
+    whole = asperity.measure(rough, **options)
+    parts = [asperity.measure(rough, **options, part=f"{k}/3") for k in (2, 3, 1)]
+    assert asperity.merge(parts).checksum == whole.checksum
+    refused(lambda: asperity.merge(parts[:2]), ErrorCode.INVALID_INPUT)
+    refused(lambda: asperity.merge([parts[0], parts[0]]), ErrorCode.INVALID_INPUT)
+    refused(lambda: asperity.measure(rough, **options, part="0/3"), ErrorCode.USAGE, "K/N")
+    # Stopped, and gone on with
+    options = dict(theta_deg=[0, 40], resolution=16, rays=2**22, batches=256, bounces=4)
+    begin = time.perf_counter()
+    stopped = asperity.measure(large, **options, stop=lambda: time.perf_counter() - begin > 0.3)
+    done = asperity.measure(large, **options, so_far=stopped)
+    assert not done.stopped and done.checksum == asperity.measure(large, **options).checksum
+    refused(lambda: asperity.measure(rough, **options, so_far=stopped), ErrorCode.INVALID_INPUT)
+    refused(lambda: asperity.measure(rough, so_far=3), ErrorCode.USAGE, "no Measurement")

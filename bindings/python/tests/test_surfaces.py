@@ -172,3 +172,31 @@ def test_normals_are_a_distribution(rough):
     edges = np.radians(np.linspace(0, 90, 46))
     projected = (np.sin(edges[1:]) ** 2 - np.sin(edges[:-1]) ** 2) / 2 * 2 * np.pi / 8
     assert (density * projected[:, None]).sum() == pytest.approx(1, rel=1e-12)
+
+
+def test_readers_of_surface_topography_are_tried_where_ours_do_not_know_a_file(tmp_path, monkeypatch):
+    """Its package is not needed for it: what stands for it here has the members that are used."""
+    import types
+
+    class Topography:
+        physical_sizes, nb_grid_pts, unit = (6.0, 2.0), (3, 2), "um"
+
+        def heights(self):  # [x, y]
+            return np.ma.masked_array([[0.0, 3.0], [1.0, 4.0], [2.0, 5.0]], self.hidden)
+
+        hidden = False
+
+    Topography.topography = lambda self: self
+    module = types.ModuleType("SurfaceTopography")
+    module.open_topography = lambda path: Topography()
+    path = tmp_path / "a.unheard-of"
+    path.write_bytes(b"\x00\x01 something else")
+    refused(lambda: asperity.read(path), ErrorCode.INVALID_INPUT)
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", module)
+    surface = asperity.read(path, tiling="finite")
+    np.testing.assert_allclose(surface.heights, [[0, 1e-6, 2e-6], [3e-6, 4e-6, 5e-6]], rtol=1e-6)
+    assert surface.spacing == pytest.approx((2e-6, 1e-6)) and "SurfaceTopography" in surface.source
+    Topography.hidden = [[False, True], [False, False], [False, False]]
+    refused(lambda: asperity.read(path, tiling="finite"), ErrorCode.INVALID_INPUT, "1 of 6")
+    module.open_topography = lambda path: 1 / 0
+    refused(lambda: asperity.read(path), ErrorCode.INVALID_INPUT, "unheard-of")

@@ -144,3 +144,56 @@ def test_killed_at_random_it_ends_with_the_same(tmp_path):
     while any(alive(p) for p in left) and time.monotonic() < deadline:
         time.sleep(0.05)
     assert not [p for p in left if alive(p)], "a worker outlived its parent"
+
+
+def test_parts_make_the_whole(tmp_path):
+    """As an array of Slurm jobs does it, from a file, each part a process of its own."""
+    plan = tmp_path / "sweep.toml"
+    plan.write_text('surface = "gaussian"\nsize = 16\ntheta_deg = [[0, 40]]\nresolution = 8\nrays = 256\nbatches = 2\n'
+                    "alpha = [0.1, 0.2, 0.3]\nseed = [1, 2]\n")
+
+    def asperity_sweep(folder, *options):
+        return subprocess.run([sys.executable, "-m", "asperity", "sweep", plan, folder, *options], capture_output=True,
+                              text=True)
+
+    script = asperity_sweep(tmp_path / "parts", "--slurm", "4", "--threads", "2").stdout
+    assert "#SBATCH --array=1-4" in script and "6 experiments" in script
+    command = next(line for line in script.splitlines() if " --part " in line)
+    for task in range(1, 5):
+        subprocess.run(["bash", "-euc", command], check=True, capture_output=True,
+                       env={**os.environ, "SLURM_ARRAY_TASK_ID": str(task)})
+    assert len(checksums(tmp_path / "parts")) == 6 and not (tmp_path / "parts" / "sweep.csv").exists()
+    before = contents(tmp_path / "parts")
+    table = next(line for line in script.splitlines() if "the table:" in line).split("the table:")[1]
+    subprocess.run(["bash", "-euc", table], check=True, capture_output=True)
+    asperity.sweep({**SMALL, "alpha": [0.1, 0.2, 0.3], "seed": [1, 2]}, tmp_path / "whole")
+    after = contents(tmp_path / "parts")
+    assert {n: after[n] for n in before} == before
+    assert after["sweep.csv"] == contents(tmp_path / "whole")["sweep.csv"]
+    told = asperity_sweep(tmp_path, "--part", "5/4")
+    assert told.returncode == 2 and "K/N" in told.stderr and told.stderr.count("\n") == 1
+    plan.write_text("surface = ")
+    told = asperity_sweep(tmp_path)
+    assert told.returncode == 3 and "sweep.toml" in told.stderr
+    plan.unlink()
+    assert asperity_sweep(tmp_path).returncode == 4
+
+
+def test_on_dask(tmp_path):
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, \
+            distributed.Client(cluster) as client:
+        experiments = {**SMALL, "alpha": list(np.linspace(0.1, 1, 20))}
+        killed = next(iter(client.run(os.getpid).values()))
+        asked = []
+
+        def kill_one():
+            if len(asked) == 3:
+                os.kill(killed, signal.SIGKILL)
+            asked.append(1)
+            return False
+
+        there = asperity.sweep(experiments, tmp_path / "dask", client=client, stop=kill_one)
+    here = asperity.sweep(experiments, tmp_path / "here")
+    assert checksums(tmp_path / "dask") == checksums(tmp_path / "here")
+    assert there.table == here.table
