@@ -9,6 +9,7 @@ BsdfFormat layers_csv_format();
 BsdfFormat rgl_format();
 BsdfFormat merl_format();
 BsdfFormat klems_format();
+BsdfFormat tensor_tree_format();
 BsdfFormat zemax_format();
 BsdfFormat speos_brdf_format();
 BsdfFormat speos_anisotropic_format();
@@ -19,9 +20,11 @@ BsdfFormat openmaterial_format();
 
 std::vector<BsdfFormat> builtin_formats() {
     return {
-        layers_exr_format(), layers_csv_format(), rgl_format(),        merl_format(),
-        klems_format(),      zemax_format(),      speos_brdf_format(), speos_anisotropic_format(),
-        lighttools_format(), csv_format(),        astm_format(),       openmaterial_format(),
+        layers_exr_format(),   layers_csv_format(), rgl_format(),
+        merl_format(),         klems_format(),      tensor_tree_format(),
+        zemax_format(),        speos_brdf_format(), speos_anisotropic_format(),
+        lighttools_format(),   csv_format(),        astm_format(),
+        openmaterial_format(),
     };
 }
 

@@ -9,6 +9,7 @@
 #include <asperity/formats/bsdfs/bsdf_format.h>
 #include <asperity/formats/bsdfs/cosine_sampled.h>
 #include <asperity/formats/bsdfs/klems_basis.h>
+#include <asperity/formats/bsdfs/window_xml.h>
 #include <asperity/formats/read_file.h>
 
 #include <fmt/format.h>
@@ -101,14 +102,6 @@ std::string block_text(const KlemsBasis& basis, std::span<const double> matrix,
     return text + "</ScatteringData>\n</WavelengthDataBlock>\n</WavelengthData>\n";
 }
 
-/// Text that may stand in an XML comment: no "--".
-std::string comment_text(const std::vector<std::string>& lines) {
-    std::string text;
-    for (const std::string& line : lines) text += line + "\n";
-    for (std::size_t at; (at = text.find("--")) != text.npos;) text.replace(at, 2, "- -");
-    return "<!--\n" + text + "-->\n";
-}
-
 BsdfFormat::Remarks write(const ExportSource& source, const FormatOptions& options,
                           const std::string& path) {
     const KlemsBasis basis(options.word("basis", {"full", "half", "quarter"}));
@@ -116,17 +109,11 @@ BsdfFormat::Remarks write(const ExportSource& source, const FormatOptions& optio
     const std::vector<double> luminance = source.luminance_weights();
     const std::vector<double> alike(luminance.size(), 1.0 / static_cast<double>(luminance.size()));
     AtomicFile file(path);
-    file.write("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + comment_text(source.provenance()) +
-               "<WindowElement xmlns=\"http://windows.lbl.gov\">\n"
-               "<WindowElementType>System</WindowElementType>\n<FileType>BSDF</FileType>\n"
-               "<Optical>\n<Layer>\n<Material>\n<Name>Simulated surface</Name>\n"
-               "<Manufacturer>Asperity</Manufacturer>\n<Thickness unit=\"Meter\">0</Thickness>\n"
-               "<DeviceType>Other</DeviceType>\n</Material>\n" +
-               basis_text(basis));
+    file.write(window_opening(source) + basis_text(basis));
     file.write(block_text(basis, matrix, alike, "Solar", "CIE Illuminant D65 1nm.ssp", "None"));
     file.write(block_text(basis, matrix, luminance, "Visible", "CIE Illuminant D65 1nm.ssp",
                           "ASTM E308 1931 Y.dsp"));
-    file.write("</Layer>\n</Optical>\n</WindowElement>\n");
+    file.write(window_closing());
     file.commit();
     BsdfFormat::Remarks remarks = {fmt::format(
         "{} patches, constant within each: sharper lobes become as wide", basis.patches())};
@@ -217,7 +204,10 @@ BsdfFormat klems_format() {
             "WINDOW, Radiance, EnergyPlus: matrix of Klems, Visible and Solar",
             {{"basis", "full", "full (145 patches), half (77) or quarter (41)"}},
             write,
-            [](std::string_view head) { return head.find("<WindowElement") != head.npos; },
+            [](std::string_view head) {
+                return head.find("<WindowElement") != head.npos &&
+                       head.find("TensorTree") == head.npos;
+            },
             read};
 }
 
