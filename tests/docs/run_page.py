@@ -42,7 +42,7 @@ with tempfile.TemporaryDirectory() as folder:
                     assert line.startswith("asperity "), f"not a command of ours: {line}"
                     run(line, folder)
         elif language == "python" and "import asperity" not in text:
-            run("asperity simulate --quiet --size 32 --resolution 16 --layers 3 -o r.asperity", folder)
+            run("asperity simulate --quiet --size 64 --resolution 64 --layers 3 -o r.asperity", folder)
             pathlib.Path(f"{folder}/block.py").write_text(text)
             run("/usr/bin/python3 block.py", folder)
         elif language == "cpp":

@@ -42,17 +42,45 @@ Digest digest_of(const TensorBlock& block) {
     return digest.finish();
 }
 
-Digest digest_of(const TensorFile& file, const TensorField& field) {
-    constexpr std::uint64_t kBufferBytes = 1 << 20;
-    std::vector<std::byte> buffer(static_cast<std::size_t>(std::min(kBufferBytes, field.bytes)));
+Digest stored_digest_of(const TensorBlock& block) {
+    if (block.packed.empty()) return digest_of(block);
+    FieldDigest digest(block.name, block.type, block.shape);
+    const std::uint64_t size = block.packed.size();
+    digest.update(std::as_bytes(std::span(&size, 1)));
+    digest.update(block.packed);
+    return digest.finish();
+}
+
+namespace {
+
+/// Feeds `bytes` bytes through a buffer that read(begin, part) fills.
+template <typename Read>
+Digest digest_through(const TensorField& field, std::uint64_t bytes, Read read) {
+    // Of packed fields so many frames are unpacked side by side
+    constexpr std::uint64_t kBufferBytes = 16 * kFrameBytes;
+    std::vector<std::byte> buffer(static_cast<std::size_t>(std::min(kBufferBytes, bytes)));
     FieldDigest digest(field.name, field.type, field.shape);
-    for (std::uint64_t begin = 0; begin < field.bytes; begin += buffer.size()) {
-        const std::uint64_t count = std::min<std::uint64_t>(buffer.size(), field.bytes - begin);
+    for (std::uint64_t begin = 0; begin < bytes; begin += buffer.size()) {
+        const std::uint64_t count = std::min<std::uint64_t>(buffer.size(), bytes - begin);
         const auto part = std::span(buffer).first(static_cast<std::size_t>(count));
-        file.read(field, begin, part);
+        read(begin, part);
         digest.update(part);
     }
     return digest.finish();
+}
+
+}  // namespace
+
+Digest digest_of(const TensorFile& file, const TensorField& field) {
+    return digest_through(field, field.bytes, [&](std::uint64_t begin, std::span<std::byte> part) {
+        file.read(field, begin, part);
+    });
+}
+
+Digest stored_digest_of(const TensorFile& file, const TensorField& field) {
+    return digest_through(field, field.stored, [&](std::uint64_t begin, std::span<std::byte> part) {
+        file.read_stored(field, begin, part);
+    });
 }
 
 std::string checksum_of(std::span<const Digest> digests) {

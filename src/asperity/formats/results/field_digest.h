@@ -36,6 +36,10 @@ Digest digest_of(const TensorBlock& block);
 /// Reads the field through a small buffer.
 Digest digest_of(const TensorFile& file, const TensorField& field);
 
+/// The same over the bytes as they are stored: another one for packed fields alone.
+Digest stored_digest_of(const TensorBlock& block);
+Digest stored_digest_of(const TensorFile& file, const TensorField& field);
+
 /// 32 hexadecimal digits over a list of digests.
 std::string checksum_of(std::span<const Digest> digests);
 

@@ -26,7 +26,8 @@ std::uint64_t extent(int count) {
 
 }  // namespace
 
-ResultFields::ResultFields(const Measurement& measurement) : measurement_(measurement) {
+ResultFields::ResultFields(const Measurement& measurement, bool packed)
+    : measurement_(measurement) {
     add_text("description", kDescription);
     const auto format = static_cast<std::uint32_t>(kResultFormat);
     add_values<std::uint32_t>("format", TensorType::U32, {1}, std::span(&format, 1));
@@ -36,6 +37,8 @@ ResultFields::ResultFields(const Measurement& measurement) : measurement_(measur
     add_layers();
     add_spreads();
     add_text("provenance", provenance_json(measurement));
+    if (packed)
+        for (TensorBlock& block : blocks_) block.packed = store_.emplace_back(pack(block.parts));
     add_checksums();
 }
 
@@ -147,9 +150,10 @@ Digest format_digest() {
 void ResultFields::add_checksums() {
     std::vector<Digest> digests, counted;
     for (const TensorBlock& block : blocks_) {
-        digests.push_back(digest_of(block));
+        const Digest content = digest_of(block);
+        digests.push_back(block.packed.empty() ? content : stored_digest_of(block));
         if (in_checksum(block.name))
-            counted.push_back(block.name == "format" ? format_digest() : digests.back());
+            counted.push_back(block.name == "format" ? format_digest() : content);
     }
     checksum_ = checksum_of(counted);
     std::vector<std::uint64_t> words;

@@ -26,7 +26,8 @@ Digest format_digest();
 /// The large arrays are not copied: the measurement must outlive this object.
 class ResultFields {
   public:
-    explicit ResultFields(const Measurement& measurement);
+    /// `packed`: large fields are to be stored packed, which takes some time.
+    explicit ResultFields(const Measurement& measurement, bool packed = false);
     ResultFields(const ResultFields&) = delete;
     ResultFields& operator=(const ResultFields&) = delete;
 

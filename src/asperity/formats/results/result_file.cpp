@@ -56,14 +56,18 @@ class ResultReader {
 
         std::vector<Digest> stable;
         for (std::size_t k = 0; k < count; ++k) {
-            const Digest digest = digest_of(file_, fields[k]);
+            const TensorField& field = fields[k];
+            const Digest digest = stored_digest_of(file_, field);
             if (digest != Digest{stored[2 * k], stored[2 * k + 1]})
                 file_.fail(
                     fields[k].offset,
                     fmt::format("field '{}' is damaged: its {} bytes do not fit its checksum",
                                 fields[k].name, fields[k].bytes));
-            if (in_checksum(fields[k].name))
-                stable.push_back(fields[k].name == "format" ? format_digest() : digest);
+            if (!in_checksum(field.name)) continue;
+            if (field.name == "format")
+                stable.push_back(format_digest());
+            else
+                stable.push_back(field.packed ? digest_of(file_, field) : digest);
         }
         if (text("checksum") != checksum_of(stable))
             file_.fail(fields.back().offset, "the checksum of the whole does not fit");
@@ -241,7 +245,7 @@ class ResultReader {
 std::string save_measurement(const Measurement& measurement, const std::string& path) {
     if (const std::string why = contradiction(measurement); !why.empty())
         throw Error(ErrorCode::InvalidInput, "the measurement contradicts itself: " + why, path);
-    const ResultFields fields(measurement);
+    const ResultFields fields(measurement, true);
     write_tensor_file(path, fields.blocks());
     return fields.checksum();
 }

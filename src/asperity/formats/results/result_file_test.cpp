@@ -257,6 +257,44 @@ TEST(ResultFile, RefusesEveryFlippedByte) {
     EXPECT_NO_THROW(load_measurement(path));
 }
 
+// Large fields are packed, and every bit of them counts all the same.
+TEST(ResultFile, PackedFieldsAreCheckedAsTheyAreStored) {
+    const TemporaryFolder folder;
+    const std::string path = folder / "r.asperity";
+    std::mt19937_64 engine(2);
+    Measurement m = small_measurement(1, 0);
+    m.experiment.detector.resolution = 64;
+    m.detector = Detector(m.experiment.detector);
+    m.experiment.illumination.theta_deg = {10, 20, 30};
+    for (const Incidence& light : incidences(m.experiment.illumination)) {
+        m.layers.push_back(random_layer(m, light, engine));
+        // As few cells as most results have
+        Layer& layer = m.layers.back();
+        for (std::size_t n = 0; n < layer.energy.size(); ++n) {
+            if (n % 16 == 0) continue;
+            layer.energy[n - n % 16] += layer.energy[n];
+            layer.energy[n] = 0;
+        }
+    }
+    save_measurement(m, path);
+    const TensorFile file(path);
+    const TensorField& energy = file.require("energy", TensorType::U64, 5);
+    ASSERT_TRUE(energy.packed);
+    EXPECT_LT(energy.stored, energy.bytes / 2);
+    expect_equal(load_measurement(path), m);
+    const std::string good = get(path);
+    for (std::uint64_t k = 0; k < 400; ++k) {
+        // The heads first
+        const std::uint64_t place = energy.offset + (k < 64 ? k : engine() % energy.stored);
+        std::string bad = good;
+        bad[static_cast<std::size_t>(place)] ^= static_cast<char>(1 << engine() % 8);
+        put(path, bad);
+        const auto error = error_of([&] { load_measurement(path); });
+        ASSERT_TRUE(error) << "byte " << place;
+        EXPECT_EQ(error->code(), ErrorCode::InvalidInput) << error->what();
+    }
+}
+
 TEST(ResultFile, RefusesEveryCutAndEveryTail) {
     const TemporaryFolder folder;
     const std::string path = folder / "r.asperity";

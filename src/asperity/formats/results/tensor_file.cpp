@@ -11,6 +11,8 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <stdexcept>
+#include <utility>
 
 namespace asperity::io {
 
@@ -24,6 +26,7 @@ constexpr std::string_view kMagic = "tensor_file\0"sv;
 constexpr std::string_view kVersion = "\x01\x00"sv;
 constexpr std::uint64_t kHeaderBytes = 12 + 2 + 4;
 constexpr std::uint64_t kAlignment = 8;
+constexpr std::uint8_t kPacked = 128;  ///< beside the type
 
 // No table that keeps the limits is longer.
 constexpr std::uint64_t kMaxTableBytes =
@@ -84,6 +87,16 @@ class TableReader {
     std::uint64_t place_ = 0;
 };
 
+void check_place(const TableReader& table, const TensorField& field, const std::string& what,
+                 std::uint64_t file_size, std::uint64_t place) {
+    if (field.stored > file_size)
+        table.fail(place, fmt::format("{} claims {} bytes, the file has {}", what, field.stored,
+                                      file_size));
+    if (field.offset > file_size - field.stored)
+        table.fail(place, fmt::format("{} claims {} bytes from byte {} on, the file has {}", what,
+                                      field.stored, field.offset, file_size));
+}
+
 void read_shape(TableReader& table, TensorField& field, const std::string& what,
                 std::uint64_t file_size) {
     const std::uint64_t place = table.place();
@@ -92,9 +105,11 @@ void read_shape(TableReader& table, TensorField& field, const std::string& what,
         table.fail(place, fmt::format("{} claims {} dimensions, at most {} are allowed", what,
                                       dimensions, kMaxTensorDimensions));
     const std::uint64_t type_place = table.place();
-    const auto type = table.number<std::uint8_t>(what);
-    if (type < std::uint8_t{1} || type > static_cast<std::uint8_t>(TensorType::F64))
-        table.fail(type_place, fmt::format("{} has the unknown type {}", what, type));
+    const auto stored_type = table.number<std::uint8_t>(what);
+    field.packed = (stored_type & kPacked) != 0;
+    const int type = stored_type & ~kPacked;
+    if (type < 1 || type > static_cast<int>(TensorType::F64))
+        table.fail(type_place, fmt::format("{} has the unknown type {}", what, stored_type));
     field.type = static_cast<TensorType>(type);
 
     const std::uint64_t offset_place = table.place();
@@ -103,13 +118,27 @@ void read_shape(TableReader& table, TensorField& field, const std::string& what,
 
     const auto bytes = data_bytes(field.type, field.shape);
     if (!bytes) table.fail(offset_place, what + " claims more than 2^64 bytes");
-    if (*bytes > file_size)
-        table.fail(offset_place,
-                   fmt::format("{} claims {} bytes, the file has {}", what, *bytes, file_size));
-    if (field.offset > file_size - *bytes)
-        table.fail(offset_place, fmt::format("{} claims {} bytes from byte {} on, the file has {}",
-                                             what, *bytes, field.offset, file_size));
     field.bytes = *bytes;
+    field.stored = field.packed ? sizeof(std::uint64_t) : *bytes;
+    if (field.packed && *bytes / kMostPacked > file_size)
+        table.fail(offset_place, fmt::format("{} claims {} bytes, packed into a file of {}", what,
+                                             *bytes, file_size));
+    check_place(table, field, what, file_size, offset_place);
+}
+
+/// Packed data say themselves how many bytes they are.
+void read_packed_size(const InputFile& file, const TableReader& table, TensorField& field) {
+    std::uint64_t size = 0;
+    file.read(field.offset, std::as_writable_bytes(std::span(&size, 1)));
+    const std::string what = fmt::format("field '{}'", field.name);
+    if (size > file.size())
+        table.fail(field.offset, fmt::format("{} claims {} packed bytes, the file has {}", what,
+                                             size, file.size()));
+    if (field.bytes / kMostPacked > size)
+        table.fail(field.offset,
+                   fmt::format("{} claims {} bytes, packed into {}", what, field.bytes, size));
+    field.stored = sizeof size + size;
+    check_place(table, field, what, file.size(), field.offset);
 }
 
 TensorField read_entry(TableReader& table, std::uint32_t number, std::uint64_t file_size) {
@@ -172,6 +201,12 @@ std::uint64_t table_bytes(std::span<const TensorBlock> blocks) {
     return bytes;
 }
 
+/// Bytes of a block in the file.
+std::uint64_t stored_bytes(const TensorBlock& block) {
+    return block.packed.empty() ? *data_bytes(block.type, block.shape)
+                                : sizeof(std::uint64_t) + block.packed.size();
+}
+
 std::string padding(std::uint64_t offset) {
     return std::string(static_cast<std::size_t>(aligned(offset) - offset), '\0');
 }
@@ -196,10 +231,11 @@ void write_tensor_file(const std::string& path, std::span<const TensorBlock> blo
         append(table, static_cast<std::uint16_t>(block.name.size()));
         table += block.name;
         append(table, static_cast<std::uint16_t>(block.shape.size()));
-        append(table, static_cast<std::uint8_t>(block.type));
+        append(table, static_cast<std::uint8_t>(static_cast<std::uint8_t>(block.type) |
+                                                (block.packed.empty() ? 0 : kPacked)));
         append(table, aligned(end));
         for (const std::uint64_t extent : block.shape) append(table, extent);
-        end = aligned(end) + *data_bytes(block.type, block.shape);
+        end = aligned(end) + stored_bytes(block);
     }
 
     // The table and the blocks, each after its padding.
@@ -208,8 +244,14 @@ void write_tensor_file(const std::string& path, std::span<const TensorBlock> blo
     end = table.size();
     for (const TensorBlock& block : blocks) {
         file.write(padding(end));
-        for (const auto part : block.parts) file.write(part);
-        end = aligned(end) + *data_bytes(block.type, block.shape);
+        if (block.packed.empty()) {
+            for (const auto part : block.parts) file.write(part);
+        } else {
+            const std::uint64_t size = block.packed.size();
+            file.write(std::as_bytes(std::span(&size, 1)));
+            file.write(block.packed);
+        }
+        end = aligned(end) + stored_bytes(block);
     }
     file.commit();
 }
@@ -231,6 +273,8 @@ TensorFile::TensorFile(const std::string& path) : file_(path) {
     TableReader table(file_, start);
     fields_ = read_table(table, file_.size());
     table_end_ = table.place();
+    for (TensorField& field : fields_)
+        if (field.packed) read_packed_size(file_, table, field);
 }
 
 const TensorField* TensorFile::find(std::string_view name) const {
@@ -255,7 +299,23 @@ void TensorFile::read(const TensorField& field, std::uint64_t begin,
     if (begin > field.bytes || bytes.size() > field.bytes - begin)
         fail(field.offset, fmt::format("field '{}' has {} bytes, {} from {} on were asked for",
                                        field.name, field.bytes, bytes.size(), begin));
-    file_.read(field.offset + begin, bytes);
+    if (!field.packed) {
+        file_.read(field.offset + begin, bytes);
+        return;
+    }
+    try {
+        if (unpacked_ != &field) {
+            unpacked_ = nullptr;
+            std::vector<std::byte> frames(
+                static_cast<std::size_t>(field.stored - sizeof(std::uint64_t)));
+            file_.read(field.offset + sizeof(std::uint64_t), frames);
+            frames_.emplace(std::move(frames), field.bytes);
+            unpacked_ = &field;
+        }
+        frames_->read(begin, bytes);
+    } catch (const std::runtime_error& error) {
+        fail(field.offset, fmt::format("field '{}' is damaged: {}", field.name, error.what()));
+    }
 }
 
 void TensorFile::require_own_layout() const {
@@ -267,7 +327,7 @@ void TensorFile::require_own_layout() const {
         std::string gap(static_cast<std::size_t>(aligned(end) - end), 'x');
         file_.read(end, std::as_writable_bytes(std::span(gap)));
         if (gap != padding(end)) fail(end, "bytes between two fields are not zero");
-        end = field.offset + field.bytes;
+        end = field.offset + field.stored;
     }
     if (end != file_.size())
         fail(end, fmt::format("{} bytes follow the last field", file_.size() - end));

@@ -5,12 +5,17 @@
 //     "tensor_file\0"  u8 1  u8 0  u32 fields
 //     per field: u16 length, name, u16 dimensions, u8 type, u64 offset of the data, u64 shape[...]
 //     per field: the data, row-major, beginning at a multiple of 8 bytes
+//
+// Ours goes beyond that in one thing: 128 is added to the type of a field whose data are packed, a
+// u64 with the number of bytes that follow, and these, zstd frames of 1 MiB of content each.
 #pragma once
 
 #include <asperity/formats/read_file.h>
+#include <asperity/formats/results/packed_data.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -43,6 +48,7 @@ struct TensorBlock {
     TensorType type = TensorType::U8;
     std::vector<std::uint64_t> shape;
     std::vector<std::span<const std::byte>> parts;
+    std::span<const std::byte> packed = {};  ///< what pack() makes of the parts, if it is to be so
 };
 
 /// A field found in a file.
@@ -52,7 +58,9 @@ struct TensorField {
     std::vector<std::uint64_t> shape;
     std::uint64_t offset = 0;  ///< of its data in the file
     std::uint64_t bytes = 0;   ///< product(shape) * size_of(type)
-    std::uint64_t entry = 0;   ///< offset of its entry in the table
+    std::uint64_t stored = 0;  ///< bytes from `offset` on: fewer where they are packed
+    bool packed = false;
+    std::uint64_t entry = 0;  ///< offset of its entry in the table
 };
 
 /// What a reader accepts at most.
@@ -83,8 +91,15 @@ class TensorFile {
     const TensorField& require(std::string_view name, TensorType type,
                                std::size_t dimensions) const;
 
-    /// Fills `bytes` from byte `begin` of the field's data on. Both must lie inside the field.
+    /// Fills `bytes` from byte `begin` of the field's data on. Both must lie inside the field. By
+    /// one thread at a time: of a packed field all frames are kept until another one is read.
     void read(const TensorField& field, std::uint64_t begin, std::span<std::byte> bytes) const;
+
+    /// The same for the bytes as they are stored, `stored` of them.
+    void read_stored(const TensorField& field, std::uint64_t begin,
+                     std::span<std::byte> bytes) const {
+        file_.read(field.offset + begin, bytes);
+    }
 
     /// Refuses a file that is not laid out as write_tensor_file does it: fields in the order of the
     /// table, zero bytes between them, nothing behind the last.
@@ -96,6 +111,8 @@ class TensorFile {
     InputFile file_;
     std::uint64_t table_end_ = 0;
     std::vector<TensorField> fields_;
+    mutable const TensorField* unpacked_ = nullptr;
+    mutable std::optional<PackedData> frames_;  ///< of that field
 };
 
 }  // namespace asperity::io

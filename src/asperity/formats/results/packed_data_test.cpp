@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <asperity/formats/results/packed_data.h>
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+#include <stdexcept>
+
+namespace asperity::io {
+namespace {
+
+/// Sums of energies, many of them zero: as a result holds them.
+std::vector<std::byte> content(std::size_t bytes) {
+    std::mt19937_64 engine(bytes);
+    std::vector<std::byte> all(bytes);
+    for (std::size_t k = 0; k + 8 <= bytes; k += 8)
+        if (engine() % 4 == 0) {
+            const std::uint64_t energy = engine() >> 20;
+            std::memcpy(&all[k], &energy, sizeof energy);
+        }
+    return all;
+}
+
+TEST(PackedData, ComesBackWholeAndInPieces) {
+    for (const std::size_t bytes :
+         {std::size_t{70000}, std::size_t{1} << 20, (std::size_t{5} << 20) + 4321}) {
+        const std::vector<std::byte> all = content(bytes);
+        // In parts of uneven sizes, one of them empty
+        const std::span whole(all);
+        const std::vector<std::span<const std::byte>> parts{whole.first(bytes / 3), whole.first(0),
+                                                            whole.subspan(bytes / 3, 7),
+                                                            whole.subspan(bytes / 3 + 7)};
+        const std::vector<std::byte> packed = pack(parts);
+        ASSERT_FALSE(packed.empty());
+        EXPECT_LT(packed.size(), bytes / 2);
+        const PackedData data(packed, bytes);
+        std::vector<std::byte> back(bytes);
+        data.read(0, back);
+        EXPECT_TRUE(back == all);
+        for (std::size_t begin = 0; begin < bytes; begin += bytes / 5 + 1) {
+            const std::size_t count = std::min(bytes - begin, bytes / 4);
+            std::vector<std::byte> piece(count);
+            data.read(begin, piece);
+            EXPECT_TRUE(std::equal(piece.begin(), piece.end(),
+                                   all.begin() + static_cast<std::ptrdiff_t>(begin)));
+        }
+    }
+}
+
+TEST(PackedData, WhatIsNotWorthItStaysAsItIs) {
+    const auto is_packed = [](const std::vector<std::byte>& all) {
+        const std::span<const std::byte> part(all);
+        return !pack(std::span(&part, 1)).empty();
+    };
+    EXPECT_FALSE(is_packed({}));
+    EXPECT_FALSE(is_packed(content(1000)));
+    // Zeros would make a small file that asks for much memory
+    EXPECT_FALSE(is_packed(std::vector<std::byte>(8 << 20)));
+    std::vector<std::byte> noise(1 << 20);
+    std::mt19937_64 engine(1);
+    for (std::byte& b : noise) b = static_cast<std::byte>(engine());
+    EXPECT_FALSE(is_packed(noise));
+}
+
+TEST(PackedData, DamageIsFound) {
+    const std::vector<std::byte> all = content(3 << 20);
+    const std::span<const std::byte> part(all);
+    const std::vector<std::byte> packed = pack(std::span(&part, 1));
+    const auto same = [&](std::vector<std::byte> frames, std::uint64_t bytes) {
+        try {
+            const PackedData data(std::move(frames), bytes);
+            std::vector<std::byte> back(static_cast<std::size_t>(bytes));
+            data.read(0, back);
+            return back == all;
+        } catch (const std::runtime_error&) {
+            return false;
+        }
+    };
+    ASSERT_TRUE(same(packed, all.size()));
+    EXPECT_FALSE(same(packed, all.size() - 1));
+    EXPECT_FALSE(same(packed, all.size() + 1));
+    std::vector<std::byte> longer = packed;
+    longer.push_back(std::byte{0});
+    EXPECT_FALSE(same(longer, all.size()));
+    for (std::size_t cut = 0; cut < packed.size(); cut += packed.size() / 50)
+        EXPECT_FALSE(
+            same({packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(cut)}, all.size()));
+    // Single bits are for the checksums of a result: some say nothing to the unpacker
+}
+
+}  // namespace
+}  // namespace asperity::io
