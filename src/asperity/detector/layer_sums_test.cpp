@@ -95,6 +95,26 @@ TEST(LayerSums, ErrorsAreThoseOfTheMeanOverBatches) {
     EXPECT_EQ(sums.edge[0], (54 + 44 + 34 + 24) * kRayEnergy);
 }
 
+/// Two batches of 100 rays: cells that carry 60, 22, 10 and 8 of them in the mean.
+TEST(LayerSums, ErrorsOfCellsAreOfThoseThatCarryNinetyPercent) {
+    const SumShape shape{.cells = 8, .bounces = 1};
+    const std::vector<std::int32_t> paths(100, 0);
+    const std::size_t rays[2][4] = {{60, 22, 12, 6}, {60, 22, 8, 10}};
+    LayerSums sums(shape, 100);
+    for (std::uint64_t n = 0; n < 2; ++n) {
+        BatchSums b(shape);
+        for (std::int32_t cell = 0; cell < 4; ++cell) {
+            const std::vector<std::int32_t> cells(100, 2 * cell);
+            b.escape(0, 1, cells.data(), paths.data(), rays[n][cell], {});
+        }
+        b.rays = 100;
+        sums.add(n, b);
+    }
+    // The third cell, 10 +- 2, is needed for 90; the fourth, 8 +- 2, is not
+    EXPECT_EQ(sums.relative_errors().albedo, 0);
+    EXPECT_NEAR(sums.relative_errors().cells, 0.2, 1e-12);
+}
+
 /// A batch of `rays` with one path into each of two places, and the others spread over two.
 BatchSums spread_batch(const SumShape& shape, std::uint64_t rays) {
     BatchSums b(shape);

@@ -6,6 +6,16 @@
 namespace asperity {
 namespace {
 
+TEST(BatchPlan, BatchesAreNoLargerThanAMillionRays) {
+    RunSettings run;
+    run.batches = 2;
+    run.rays = 2 << 20;
+    EXPECT_EQ(BatchPlan(100, run).batches, 2u);
+    run.rays += 1;
+    EXPECT_EQ(BatchPlan(100, run).batches, 3u);
+    EXPECT_LE(BatchPlan(100, run).largest(), 1u << 20);
+}
+
 TEST(BatchPlan, RoundsEndWhereARunWouldHaveLooked) {
     // 100 rays in 3 batches, then 6, then as many as the limit leaves room for
     RunSettings run;

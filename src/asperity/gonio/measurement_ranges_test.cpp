@@ -72,6 +72,38 @@ TEST(MeasurementRanges, FindsWhatNoRunCanHave) {
               "a surface with samples nan x 1 apart");
 }
 
+TEST(MeasurementCheck, EveryUnitOfEnergyIsAccountedFor) {
+    const Measurement good = small_measurement();
+    const auto why = [&](const std::function<void(Layer&)>& spoil) {
+        Measurement m = good;
+        spoil(m.layers[1]);
+        return io::contradiction(m);
+    };
+    const std::string launched =
+        "layer 2: channel all: launched energy is not escaped + absorbed + truncated + edge";
+    EXPECT_EQ(why([](Layer& l) { ++l.edge[0]; }), launched);
+    EXPECT_EQ(why([](Layer& l) { ++l.rays; }), launched);
+    // Sums that only fit because they wrap around 2^64
+    EXPECT_EQ(why([](Layer& l) {
+                  l.absorbed[0] += std::uint64_t{1} << 63;
+                  l.edge[0] += std::uint64_t{1} << 63;
+              }),
+              launched);
+    EXPECT_EQ(why([](Layer& l) { ++l.energy[5]; }),
+              "layer 2: channel all: escaped energy is not the sum over the cells");
+    EXPECT_EQ(why([](Layer& l) { ++l.escaped_by_bounce[0]; }),
+              "layer 2: channel all: escaped energy is not the sum over the bounces");
+}
+
+TEST(Measurement, HasNoMoreOrdersThanBounces) {
+    Measurement m;
+    m.experiment.detector.orders = 4;
+    m.experiment.run.bounces = 2;
+    EXPECT_EQ(m.orders(), 2);
+    m.experiment.run.bounces = 9;
+    EXPECT_EQ(m.orders(), 4);
+}
+
 TEST(MeasurementRanges, OneBatchMayNotKnowItsError) {
     Measurement m = small_measurement();
     m.layers[0].batches = 1;

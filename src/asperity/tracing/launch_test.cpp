@@ -78,6 +78,17 @@ TEST(Launch, LatticeIsMoreEvenThanChance) {
     }
 }
 
+TEST(Launch, RowsOfTheLatticeAreShiftedByTheGoldenRatio) {
+    const Heightfield s = tile(12, 8);
+    const LaunchBatch b(s, 1, {1, 0, 0, false}, {LaunchPattern::LowDiscrepancy, 600, 17, 2, 0});
+    const double golden = (std::sqrt(5.0) - 1) / 2;
+    ASSERT_EQ(b.rows(), 50u);
+    for (std::uint64_t r = 1; r < b.rows(); ++r) {
+        const double step = b.row(r).u - b.row(r - 1).u;
+        EXPECT_NEAR(step - std::floor(step), golden, 1e-12) << r;
+    }
+}
+
 TEST(Launch, LightComesFromItsAzimuth) {
     const Heightfield s = tile(4, 4);
     const LaunchBatch b(s, 7, {1, radians(60), radians(90), false},
