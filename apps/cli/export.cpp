@@ -13,6 +13,7 @@
 #include <asperity/core/run.h>
 #include <asperity/formats/bsdfs/bsdf_format.h>
 #include <asperity/formats/bsdfs/fidelity.h>
+#include <asperity/formats/bsdfs/snippets.h>
 #include <asperity/formats/results/result_file.h>
 #include <asperity/pictures/pictures.h>
 
@@ -81,6 +82,9 @@ class ExportVerb {
             add_text(app, "--max-error", "E",
                      "fail when the mean L1 of what is read back is larger: 0.02 or 2%", kOutput)
                 ->default_str("never");
+        app.add_flag("--snippet", snippet_,
+                     "write scenes of Mitsuba, pbrt or Radiance that use the file beside it")
+            ->group(kOutput);
         app.add_flag("--json", json_, "print one JSON object: the fidelity")->group(kOutput);
         app.add_flag("--quiet", quiet_, "do not name the files written")->group(kOutput);
         set_help(app, "export FILE -o X.exr | X.csv | X.png | FOLDER/", formats_text() + kClosing);
@@ -96,6 +100,7 @@ class ExportVerb {
         if (!wants_pictures(path)) return write_file(path);
         if (format_->count() > 0)
             throw Error(ErrorCode::Usage, "pictures have no format", "format");
+        if (snippet_) throw Error(ErrorCode::Usage, "is for files of a format", "snippet");
         if (max_error_->count() > 0 || json_)
             throw Error(ErrorCode::Usage, "is for files of a format", json_ ? "json" : "max-error");
         return write_pictures(path);
@@ -125,6 +130,7 @@ class ExportVerb {
             format.options,
             colon == spec.npos ? std::string_view{} : std::string_view(spec).substr(colon + 1));
         check_output_file(path);
+        if (snippet_) io::require_snippets(format.name);
         const double most = max_error();
         const io::ExportSource source = open_source();
         std::vector<std::string> remarks = source.remarks();
@@ -132,6 +138,9 @@ class ExportVerb {
             remarks.push_back(std::move(remark));
         const Talk say(quiet_ || json_, false);
         say("wrote " + path + "\n");
+        if (snippet_)
+            for (const std::string& name : io::write_snippets(format.name, options, path))
+                say("wrote " + name + "\n");
         if (format.read) {
             const io::Fidelity fidelity = io::fidelity_of(source, format, path);
             say(io::to_text(fidelity) + "\n");
@@ -144,7 +153,9 @@ class ExportVerb {
                                         100 * fidelity.mean_l1, 100 * most),
                             path);
             }
-        } else if (json_) {
+        } else if (!json_) {
+            for (const std::string& remark : remarks) say("  " + remark + "\n");
+        } else {
             write_json({{"file", path}, {"format", format.name}, {"remarks", remarks}});
         }
         return 0;
@@ -261,7 +272,7 @@ class ExportVerb {
     CLI::Option *file_ = nullptr, *output_ = nullptr, *format_ = nullptr, *colour_map_ = nullptr,
                 *scale_ = nullptr, *max_error_ = nullptr, *decades_ = nullptr,
                 *projection_ = nullptr, *channel_ = nullptr;
-    bool quiet_ = false, json_ = false;
+    bool quiet_ = false, json_ = false, snippet_ = false;
 };
 
 }  // namespace

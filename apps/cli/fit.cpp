@@ -148,6 +148,8 @@ class FitVerb {
         png_ =
             add_text(app, "--png", "FILE", "a picture of the nearest model over the data", kOutput)
                 ->default_str("none");
+        mtlx_ = add_text(app, "--mtlx", "FILE", "the fit of ggx as a surface of MaterialX", kOutput)
+                    ->default_str("none");
         app.add_flag("--json", json_, "print one JSON object")->group(kOutput);
         set_help(app, "fit FILE [options]", closing());
     }
@@ -155,7 +157,8 @@ class FitVerb {
     int run() {
         if (file_->count() == 0) throw Error(ErrorCode::Usage, "fit needs a file");
         const FitSettings settings = read_settings();
-        if (png_->count() > 0) check_output_file(text_of(png_));
+        for (const CLI::Option* file : {png_, mtlx_})
+            if (file->count() > 0) check_output_file(text_of(file));
         const int threads = Run(threads_.threads()).threads();
         FitData data = open(settings, threads);
         data.name = text_of(file_);
@@ -165,6 +168,7 @@ class FitVerb {
         else
             write_out(text_of_report(report, data) + (hint_.empty() ? "" : hint_ + "\n"));
         if (png_->count() > 0) write_picture(report.fits.front(), data);
+        if (mtlx_->count() > 0) write_materialx(report);
         return 0;
     }
 
@@ -205,6 +209,18 @@ class FitVerb {
         return fit_data(measurement, settings.light, last);
     }
 
+    void write_materialx(const FitReport& report) const {
+        for (const Fit& fit : report.fits) {
+            if (!fit.spec.starts_with("ggx:")) continue;
+            const io::ExportSource source(parse_brdf_spec(fit.spec), Experiment{}, 1);
+            const io::BsdfFormats formats;
+            formats.find("materialx")->write(source, io::FormatOptions({}, ""), text_of(mtlx_));
+            return;
+        }
+        throw Error(ErrorCode::Usage, "needs ggx among the models: OpenPBR has no other facets",
+                    "mtlx");
+    }
+
     void write_picture(const Fit& fit, const FitData& data) const {
         std::vector<io::ResidualTile> tiles;
         for (std::size_t k = 0; k < data.layers.size(); ++k) {
@@ -235,7 +251,7 @@ class FitVerb {
     ExperimentOptions experiment_;
     ThreadsOption threads_;
     std::vector<CLI::Option*> options_;
-    CLI::Option *file_ = nullptr, *png_ = nullptr;
+    CLI::Option *file_ = nullptr, *png_ = nullptr, *mtlx_ = nullptr;
     std::string hint_;
     bool json_ = false;
 };

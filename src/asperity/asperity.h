@@ -32,6 +32,7 @@
 #include <asperity/formats/bsdfs/fidelity.h>
 #include <asperity/formats/bsdfs/format_options.h>
 #include <asperity/formats/bsdfs/layers_exr.h>
+#include <asperity/formats/bsdfs/snippets.h>
 #include <asperity/formats/heights/heights_format.h>
 #include <asperity/formats/heights/heights_source.h>
 #include <asperity/formats/heights/surface_files.h>

@@ -370,6 +370,14 @@ class Export(ProgramTest):
         self.assert_files("r.asperity", "layers.exr")
         self.assertEqual(content("layers.exr")[:4], b"\x76\x2f\x31\x01")
 
+    def test_snippets(self):
+        self.passes("export", "r.asperity", "-o", "x.bsdf", "--snippet")
+        self.assert_files("r.asperity", "x.bsdf", "x_mitsuba.xml", "x_mitsuba.py")
+        self.fails(2, "export", "r.asperity", "-o", "y.binary", "--snippet", saying="snippet")
+        self.fails(2, "export", "r.asperity", "-o", "y.png", "--snippet", saying="snippet")
+        self.fails(2, "export", "r.asperity", "-o", "y.mtlx", saying="fit")
+        self.assertFalse(os.path.exists("y.binary") or os.path.exists("y.mtlx"))
+
     def test_folder(self):
         self.passes("export", "r.asperity", "-o", "layers/")
         names = os.listdir("layers")
@@ -428,6 +436,12 @@ class Fit(ProgramTest):
         self.assertAlmostEqual(values["alpha", None], 0.5, delta=0.01)
         for entry, f0 in enumerate((0.2, 0.5, 0.8)):
             self.assertAlmostEqual(values["f0", entry], f0, delta=0.01)
+
+    def test_materialx(self):
+        self.passes("fit", "r.asperity", "--model", "beckmann,ggx", "--mtlx", "x.mtlx")
+        self.assertIn(b"open_pbr_surface", content("x.mtlx"))
+        self.fails(2, "fit", "r.asperity", "--model", "beckmann", "--mtlx", "y.mtlx", saying="mtlx")
+        self.assert_files("r.asperity", "x.mtlx")
 
     def test_refusals(self):
         self.fails(2, "fit", saying="needs")

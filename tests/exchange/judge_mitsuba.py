@@ -129,7 +129,19 @@ def check_white(folder):
         assert abs(np.mean(weights) - 1) < 0.02
 
 
+def check_scene(folder):
+    """The scene that --snippet writes beside the file loads and shows a lit sphere."""
+    export(folder, "ggx:alpha=0.3,material=Au", "--snippet")
+    scene = mi.load_file(f"{folder}/m_mitsuba.xml", resx=32, resy=32)
+    image = np.array(mi.render(scene, spp=4))[:, :, :3]
+    middle = image[12:20, 12:20].mean(axis=(0, 1))
+    print(f"scene of the snippet: {image.shape}, red, green, blue in the middle {middle.round(3)}")
+    assert np.isfinite(image).all() and (middle > 0).all()
+    assert middle[0] > 1.2 * middle[2]  # gold
+
+
 with tempfile.TemporaryDirectory() as folder:
+    check_scene(folder)
     check_eval(folder)
     check_white(folder)
     check_sampling(folder)

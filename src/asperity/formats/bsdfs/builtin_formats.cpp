@@ -17,6 +17,7 @@ BsdfFormat lighttools_format();
 BsdfFormat csv_format();
 BsdfFormat astm_format();
 BsdfFormat openmaterial_format();
+BsdfFormat materialx_format();
 
 std::vector<BsdfFormat> builtin_formats() {
     return {
@@ -24,7 +25,7 @@ std::vector<BsdfFormat> builtin_formats() {
         merl_format(),         klems_format(),      tensor_tree_format(),
         zemax_format(),        speos_brdf_format(), speos_anisotropic_format(),
         lighttools_format(),   csv_format(),        astm_format(),
-        openmaterial_format(),
+        openmaterial_format(), materialx_format(),
     };
 }
 
