@@ -27,13 +27,6 @@ if(ASPERITY_SANITIZE)
     set(ASPERITY_TEST_SUFFIX _sanitized)
 endif()
 
-# asperity_precompile(TARGET header ...): compiles these once for all files of the target.
-function(asperity_precompile target)
-    if(ASPERITY_PRECOMPILE)
-        target_precompile_headers(${target} PRIVATE ${ARGN})
-    endif()
-endfunction()
-
 # Only in the build: all of a header-only library is in ours once that is compiled.
 set(ASPERITY_HEADER_ONLY Eigen3::Eigen nlohmann_json::nlohmann_json)
 
@@ -93,7 +86,6 @@ function(asperity_test name)
     target_link_libraries(${name} PRIVATE ${T_LIBS} asperity_flags GTest::gtest_main)
     # What is computed is the library's: what counts here is that it compiles quickly.
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-    asperity_precompile(${name} <gtest/gtest.h>)
     add_test(NAME ${name}${ASPERITY_TEST_SUFFIX} COMMAND ${name})
     set_tests_properties(${name}${ASPERITY_TEST_SUFFIX} PROPERTIES LABELS ${T_LABEL})
     if(NOT TARGET ${T_LABEL}_tests)
