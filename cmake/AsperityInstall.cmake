@@ -5,7 +5,7 @@
 # A component is a module of src/asperity or a group of them. Which modules and packages each needs is
 # read from what its target links.
 #
-# For cmake --install --component the lot is called development, the command line's program is program.
+# For cmake --install --component the lot is called development, the program asperity cli.
 include(CMakePackageConfigHelpers)
 
 set(ASPERITY_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/Asperity)

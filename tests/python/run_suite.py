@@ -47,7 +47,7 @@ def make_environment():
 
 
 make_environment()
-for component in ("development", "program"):
+for component in ("development", "cli"):
     run(cmake, "--install", build, "--prefix", prefix, "--component", component)
 config = next(prefix.glob("lib*/**/AsperityConfig.cmake")).parent
 os.environ["PATH"] = f"{folder / 'bin'}:{os.environ['PATH']}"

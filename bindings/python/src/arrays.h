@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,24 @@ nb::ndarray<nb::numpy, T> to_array(std::vector<T> values,
                       [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
     return nb::ndarray<nb::numpy, T>(data, shape, owner);
 }
+
+/// Numbers to be written, each of them: nobody sets them to zero before.
+template <typename T>
+struct Buffer {
+    explicit Buffer(std::size_t count)
+        : values(std::make_unique_for_overwrite<T[]>(count)), size(count) {}
+
+    std::span<T> span() { return {values.get(), size}; }
+    /// Gives the memory to an array of NumPy.
+    nb::ndarray<nb::numpy, T> to_array(std::initializer_list<std::size_t> shape) && {
+        T* data = values.release();
+        nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<T*>(p); });
+        return nb::ndarray<nb::numpy, T>(data, shape, owner);
+    }
+
+    std::unique_ptr<T[]> values;
+    std::size_t size;
+};
 
 /// A view, not to be written to, of memory that `keeper` keeps alive.
 template <typename T, typename Keeper>

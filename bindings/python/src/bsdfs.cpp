@@ -53,7 +53,7 @@ nb::ndarray<nb::numpy, double> eval(const BsdfHandle& h, const Directions& wi, c
                                     int threads) {
     const std::size_t count = rows_of(wi, wo);
     const std::size_t channels = static_cast<std::size_t>(h.bsdf->channels());
-    std::vector<double> f(count * channels);
+    Buffer<double> f(count * channels);
     {
         const nb::gil_scoped_release free;
         check_units(wi, "wi");
@@ -62,27 +62,27 @@ nb::ndarray<nb::numpy, double> eval(const BsdfHandle& h, const Directions& wi, c
             for (std::size_t k = begin; k < end; ++k)
                 h.bsdf->eval(direction(wi.data(), wi.shape(0), k),
                              direction(wo.data(), wo.shape(0), k),
-                             std::span(f).subspan(k * channels, channels));
+                             f.span().subspan(k * channels, channels));
         });
     }
-    return to_array(std::move(f), {count, channels});
+    return std::move(f).to_array({count, channels});
 }
 
 nb::ndarray<nb::numpy, double> pdf(const BsdfHandle& h, const Directions& wi, const Directions& wo,
                                    int threads) {
     const std::size_t count = rows_of(wi, wo);
-    std::vector<double> density(count);
+    Buffer<double> density(count);
     {
         const nb::gil_scoped_release free;
         check_units(wi, "wi");
         check_units(wo, "wo");
         in_parts(count, threads, [&](std::size_t begin, std::size_t end) {
             for (std::size_t k = begin; k < end; ++k)
-                density[k] = h.bsdf->pdf(direction(wi.data(), wi.shape(0), k),
-                                         direction(wo.data(), wo.shape(0), k));
+                density.values[k] = h.bsdf->pdf(direction(wi.data(), wi.shape(0), k),
+                                                direction(wo.data(), wo.shape(0), k));
         });
     }
-    return to_array(std::move(density), {count});
+    return std::move(density).to_array({count});
 }
 
 using Uniforms = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
