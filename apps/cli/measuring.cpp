@@ -44,6 +44,10 @@ std::string default_reference(const SurfaceSettings& settings, const SurfaceStat
                        std::min(1.0, std::sqrt(alpha)));
 }
 
+bool can_compare(const Bsdf& model, int channels) {
+    return model.channels() == channels || model.channels() == 1 || channels == 1;
+}
+
 std::string checkpoint_of(const std::string& path) {
     return path + ".checkpoint";
 }
@@ -103,7 +107,11 @@ void Measuring::check(const Experiment& experiment, const std::string& path) con
     validate(experiment);
     const Fresnel checked(experiment.optics);
     const std::string reference = text_of(reference_, "none");
-    if (reference != "none") parse_brdf_spec(reference);
+    if (reference != "none" && !can_compare(*parse_brdf_spec(reference), checked.channels()))
+        throw Error(ErrorCode::Usage,
+                    fmt::format("has {} channels, the facets have {}",
+                                parse_brdf_spec(reference)->channels(), checked.channels()),
+                    "reference");
     if (path.empty()) {
         if (resume_) throw Error(ErrorCode::Usage, "needs -o FILE to go on from", "resume");
         if (checkpoint_->count() > 0)
@@ -210,7 +218,11 @@ void Measuring::tell(const Talk& say, const Measurement& m, const std::string& c
     // A share of the batches is no lobe to compare
     if (m.parts > 1) reference = "none";
     std::optional<Comparison> comparison;
-    if (reference != "none") comparison = compare(m, *parse_brdf_spec(reference), threads);
+    if (reference != "none") {
+        const auto model = parse_brdf_spec(reference);
+        // The default is one of colours, which other channels have no use for
+        if (can_compare(*model, m.channels())) comparison = compare(m, *model, threads);
+    }
     say(layer_table(m, comparison));
     if (comparison)
         say("L1: distance to " + reference + "; noise: what it would be from the errors alone\n");

@@ -201,6 +201,12 @@ class Simulate(ProgramTest):
                            "none")
         self.assertNotIn("L1", text)
 
+    def test_reference_of_other_channels(self):
+        rough = ["simulate", "--surface", "gaussian", *SMALL, "--theta", 30, "--f0", "0.04,0.5"]
+        self.assertNotIn("L1", self.passes(*rough))
+        self.fails(2, *rough, "--reference", "ggx:alpha=0.3,material=Au",
+                   saying="reference: has 3 channels, the facets have 2")
+
     def test_one_checksum_for_any_number_of_threads(self):
         sums = {self.json_of("simulate", "--surface", "gaussian", *SMALL, "--threads", threads)
                 ["checksum"] for threads in (1, 2, 3, 7)}
