@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from . import _core, _settings
-from ._errors import Error
+from ._errors import Error, ErrorCode
 from ._measurement import Measurement, load, measure_keywords
 from ._run import StopArgument, Task
 from ._surface import Surface
@@ -140,5 +140,19 @@ def run_job(job: Job, threads: int = 1, stop: StopArgument = None) -> bool:
         raise KeyboardInterrupt
     if result.stopped:
         return False
-    result.save(job.file)
+    _save(result, job)
     return True
+
+
+def _save(result: _core.Measurement, job: Job) -> None:
+    """Another process, one whose sweep was killed, may be at the same experiment still: it takes the other's
+    unfinished file for a remainder. Its result would be the same; what counts is that there is one."""
+    for attempt in range(3):
+        try:
+            result.save(job.file)
+            return
+        except Error as error:
+            if result_of(job) is not None:
+                return
+            if error.code != ErrorCode.INPUT_OUTPUT or attempt == 2:
+                raise

@@ -35,7 +35,8 @@ struct BsdfHandle {
     bool analytic = false;  ///< a closed form: quick enough to be rendered as it is
 };
 
-/// Reads settings as the command line does, and refuses one that the surface has no use for.
+/// Reads settings as the command line does, and refuses one that the experiment has no use for.
+void apply_settings(Experiment& experiment, const SettingTexts& texts);
 SurfaceSettings surface_settings(const SettingTexts& texts);
 nb::dict statistics_of(const SurfaceStatistics& statistics);
 

@@ -38,12 +38,7 @@ Experiment experiment_of(const SurfaceSettings& surface, std::uint64_t cells,
                          const SettingTexts& texts) {
     Experiment experiment;
     experiment.surface = surface;
-    for (const auto& [key, value] : texts) apply_setting(experiment, key, value);
-    const ParamTable<Experiment> table = experiment_params();
-    for (const auto& [key, value] : texts) {
-        const Param<Experiment>* param = find(table, key);
-        if (!param->used(experiment)) throw Error(ErrorCode::Usage, param->unused(experiment), key);
-    }
+    apply_settings(experiment, texts);
     if (!has(texts, "fresnel")) experiment.optics.fresnel = implied_fresnel(experiment.optics);
     if (!has(texts, "jitter") && !has(texts, "rays") && cells > 0)
         experiment.run.jitter = default_jitter(cells);

@@ -19,14 +19,23 @@
 
 namespace asperity::python {
 
-SurfaceSettings surface_settings(const SettingTexts& texts) {
-    Experiment experiment;
-    for (const auto& [key, value] : texts) apply_setting(experiment, key, value);
+void apply_settings(Experiment& experiment, const SettingTexts& texts) {
     const ParamTable<Experiment> table = experiment_params();
+    for (const auto& [key, value] : texts) {
+        if (const Param<Experiment>* param = find(table, key))
+            param->apply(experiment, value);
+        else
+            apply_setting(experiment, key, value);  // says which was meant
+    }
     for (const auto& [key, value] : texts) {
         const Param<Experiment>* param = find(table, key);
         if (!param->used(experiment)) throw Error(ErrorCode::Usage, param->unused(experiment), key);
     }
+}
+
+SurfaceSettings surface_settings(const SettingTexts& texts) {
+    Experiment experiment;
+    apply_settings(experiment, texts);
     return experiment.surface;
 }
 
