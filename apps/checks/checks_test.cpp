@@ -34,7 +34,7 @@ TEST(Checks, PhysicsChecksPass) {
     check_light(run, report);
     check_reflection(run, report);
     check_statistics(run, report);
-    EXPECT_EQ(done, 41);
+    EXPECT_EQ(done, 42);
 }
 
 TEST(Checks, ExpectationsRefuseWhatIsNoNumber) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <numeric>
 #include <tuple>
 
@@ -46,6 +48,20 @@ TEST_P(DetectorOfEachKind, EveryCellFindsItsCentreAndItsOwnEdges) {
                 EXPECT_EQ(detector.cell_of(from_spherical(theta_a, phi_a)), cell);
             }
         }
+}
+
+TEST_P(DetectorOfEachKind, RowsAreToldApartToTheLastBit) {
+    for (int edge = 1; edge < detector.rows(); ++edge)
+        for (int turn = 0; turn < 8; ++turn)
+            for (const int steps : {-2, -1, 0, 1, 2}) {
+                double theta = detector.theta_edge(edge);
+                for (int k = 0; k < std::abs(steps); ++k)
+                    theta = std::nextafter(theta, 9.0 * steps);
+                const Vec3 wo = from_spherical(theta, 0.7 * turn);
+                const int row = detector.cell_of(wo) / detector.columns();
+                EXPECT_LE(detector.theta_edge(row), polar_angle(wo));
+                EXPECT_GT(detector.theta_edge(row + 1), polar_angle(wo));
+            }
 }
 
 TEST_P(DetectorOfEachKind, UniformFluxFillsCellsByTheirProjectedSolidAngle) {
