@@ -2,8 +2,10 @@
 //
 // However a measurement is divided, by stops, parts or refinement, the same comes out.
 #include <asperity/core/error.h>
+#include <asperity/gonio/experiment_text.h>
 #include <asperity/gonio/merge.h>
 #include <asperity/gonio/test_measurements.h>
+#include <asperity/tracing/engine.h>
 
 #include <gtest/gtest.h>
 
@@ -139,6 +141,28 @@ TEST(MeasureScope, RoundsOfPartsReachTheSameAccuracy) {
     }
     EXPECT_GT(so_far.layers.back().batches, 16);
     expect_same_bits(so_far, measured(surface, e));
+}
+
+/// A row that a program adds is measured with, and named in settings.
+TEST(MeasureEngines, AProgramCanAddOne) {
+    static int made = 0;
+    add_engine(
+        {"counted", "the wide one, counted", [](const EngineSetup& setup, asperity::Run& run) {
+             ++made;
+             return find_engine("wide").make(setup, run);
+         }});
+    EXPECT_THROW(add_engine({"counted", "", find_engine("wide").make}), Error);
+    EXPECT_THROW(add_engine({"none", "", {}}), Error);
+    const Heightfield surface = test::noise(32, 2);
+    Experiment e = experiment();
+    const Measurement wide = measured(surface, e);
+    EXPECT_EQ(to_text(e).find("engine"), std::string::npos);
+    apply_setting(e, "engine", "counted");
+    EXPECT_NE(to_text(e).find("engine = counted"), std::string::npos);
+    EXPECT_EQ(experiment_from_text(to_text(e), "text").run.engine, "counted");
+    expect_same_bits(measured(surface, e), wide);
+    EXPECT_EQ(made, 1);
+    EXPECT_THROW(apply_setting(e, "engine", "wid"), Error);
 }
 
 std::string message_of(const std::function<void()>& work) {
