@@ -31,7 +31,7 @@ std::shared_ptr<const Bsdf> load_brdf(const std::string& text, Run& run, io::Pro
     }
     origin.emplace_back("experiment", to_text(m.experiment));
     origin.emplace_back("experiment-checksum", io::checksum(m));
-    return bake_brdf(*make_tabulated_brdf(m), run);
+    return bake_brdf(*make_tabulated_brdf(m, run), run);
 }
 
 }  // namespace

@@ -117,7 +117,7 @@ WornBrdfs::Simulated WornBrdfs::simulate(const Source& source, Run& run) {
     const std::string where = source.drawn != nullptr ? "the result drawn" : source.file;
     expect_colours(*measurement, where);
     if (run.stop_requested()) throw Error(ErrorCode::Stopped, "stopped");
-    const auto table = make_tabulated_brdf(*measurement);
+    const auto table = make_tabulated_brdf(*measurement, run);
     return {source,
             bake_brdf(*table, run),
             QString::fromStdString(measurement->surface_name),

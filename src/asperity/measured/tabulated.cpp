@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <thread>
 
 namespace asperity {
 namespace {
@@ -101,7 +100,7 @@ double positive_azimuth(double phi) {
 /// See tabulated.h for what is interpolated how.
 class TabulatedBrdf final : public Bsdf {
   public:
-    explicit TabulatedBrdf(const Measurement& measurement);
+    TabulatedBrdf(const Measurement& measurement, const Run& run);
 
     int channels() const override { return channels_; }
     std::string name() const override { return name_; }
@@ -121,7 +120,7 @@ class TabulatedBrdf final : public Bsdf {
     using Corners = std::array<Corner, 4>;
 
     void read_layers(const Measurement& measurement);
-    void normalise();
+    void normalise(const Run& run);
     Corners corners(double theta_i, double phi_i) const;
     double turn_of(Vec3 wi) const;
     double pdf_turned(const Corners& corners, Vec3 wi, Vec3 wo) const;
@@ -137,12 +136,12 @@ class TabulatedBrdf final : public Bsdf {
     std::vector<double> theta_nodes_, phi_nodes_, corrections_;
 };
 
-TabulatedBrdf::TabulatedBrdf(const Measurement& measurement)
+TabulatedBrdf::TabulatedBrdf(const Measurement& measurement, const Run& run)
     : channels_(measurement.channels()),
       name_("tabulated:" + (measurement.surface_name.empty() ? std::string("measurement")
                                                              : measurement.surface_name)) {
     read_layers(measurement);
-    normalise();
+    normalise(run);
 }
 
 void TabulatedBrdf::read_layers(const Measurement& measurement) {
@@ -178,7 +177,7 @@ void TabulatedBrdf::read_layers(const Measurement& measurement) {
 
 /// The blend of two lobes keeps neither's energy exactly. At incident directions close enough
 /// together, find by how much it misses, while the corrections are still empty.
-void TabulatedBrdf::normalise() {
+void TabulatedBrdf::normalise(const Run& run) {
     // With a second dimension to cover, coarser steps keep the cost of it within seconds.
     const FibonacciLattice lattice = relative_ ? kMediumLattice : kCoarseLattice;
     std::vector<double> theta_nodes = refine(thetas_, 0, 0.5 * kPi, radians(relative_ ? 1.5 : 3));
@@ -192,8 +191,8 @@ void TabulatedBrdf::normalise() {
 
     const std::size_t channels = static_cast<std::size_t>(channels_);
     std::vector<double> corrections(theta_nodes.size() * phi_nodes.size() * channels, 1.0);
-    const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    parallel_for(theta_nodes.size() * phi_nodes.size(), threads, [&](std::size_t k) {
+    parallel_for(theta_nodes.size() * phi_nodes.size(), run.threads(), [&](std::size_t k) {
+        if (!run.keep_going()) return;
         // Light along the surface has no albedo of its own: take it from just above.
         const double theta = std::min(theta_nodes[k / phi_nodes.size()], radians(89.9));
         const Vec3 wi = from_spherical(theta, phi_nodes[k % phi_nodes.size()]);
@@ -203,6 +202,7 @@ void TabulatedBrdf::normalise() {
         for (std::size_t c = 0; c < channels; ++c)
             if (present[c] > 0) corrections[k * channels + c] = wanted[c] / present[c];
     });
+    if (run.stop_requested()) throw Error(ErrorCode::Stopped, "stopped before the table was made");
     theta_nodes_ = std::move(theta_nodes);
     phi_nodes_ = std::move(phi_nodes);
     corrections_ = std::move(corrections);
@@ -318,8 +318,12 @@ void TabulatedBrdf::albedo(Vec3 wi, std::span<double> a) const {
 
 }  // namespace
 
+std::unique_ptr<Bsdf> make_tabulated_brdf(const Measurement& measurement, const Run& run) {
+    return std::make_unique<TabulatedBrdf>(measurement, run);
+}
+
 std::unique_ptr<Bsdf> make_tabulated_brdf(const Measurement& measurement) {
-    return std::make_unique<TabulatedBrdf>(measurement);
+    return make_tabulated_brdf(measurement, Run());
 }
 
 }  // namespace asperity

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <asperity/bsdf/bsdf.h>
+#include <asperity/core/run.h>
 #include <asperity/gonio/measurement.h>
 
 #include <memory>
@@ -29,7 +30,10 @@ namespace asperity {
 ///
 /// Throws Error(InvalidInput) when the measurement has no layers, a layer without rays, or layers
 /// that do not form a grid of theta_i x phi_i. Keeps its own copy of the tables: 4 bytes a cell and
-/// channel, 8 a cell. Takes about a second to make for one azimuth, several for many.
+/// channel, 8 a cell. Takes about a second of one thread to make for one azimuth, several for many;
+/// the same bits for any number of threads. Throws Error(Stopped) when the run is stopped.
+std::unique_ptr<Bsdf> make_tabulated_brdf(const Measurement& measurement, const Run& run);
+/// The same on all threads of the machine.
 std::unique_ptr<Bsdf> make_tabulated_brdf(const Measurement& measurement);
 
 }  // namespace asperity

@@ -213,6 +213,24 @@ TEST(TabulatedTest, BlackLayersAreBlack) {
     EXPECT_GT(s->pdf, 0);
 }
 
+TEST(TabulatedTest, UsesTheThreadsAndTheStopOfItsRun) {
+    const Measurement m =
+        test::measurement_of(*parse_brdf_spec("ggx:alpha=0.3"), layers_at({0, 40, 80}, {0}, 32));
+    const auto one = make_tabulated_brdf(m, asperity::Run(1)),
+               three = make_tabulated_brdf(m, asperity::Run(3));
+    for (const double theta : {5.0, 33.0, 71.0})
+        EXPECT_EQ(value(*one, from_spherical(radians(theta), 1), from_spherical(0.3, 2)),
+                  value(*three, from_spherical(radians(theta), 1), from_spherical(0.3, 2)));
+    asperity::Run stopped(2);
+    stopped.request_stop();
+    try {
+        make_tabulated_brdf(m, stopped);
+        FAIL() << "it went on";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::Stopped);
+    }
+}
+
 TEST(TabulatedTest, RefusesWhatIsNoGrid) {
     const auto model = parse_brdf_spec("lambert");
     const Measurement good = test::measurement_of(*model, layers_at({0, 45}, {0, 90}, 8));
