@@ -98,6 +98,7 @@ std::string two_walls_failure(const Way& way, Run& run) {
     Experiment e = experiment_of(way, 0, 0);
     e.optics = metal(kGoldN, kGoldK);
     const double wall = reflectance(std::sqrt(0.5), kGoldN, kGoldK);
+    e.run.bounces = 2;
     for (const double along_y : {1.0, 0.0}) {
         const Measurement m = measure(four_slopes(along_y, 1 - along_y), e, run);
         const std::string failure =
