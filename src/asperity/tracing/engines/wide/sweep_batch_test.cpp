@@ -61,6 +61,21 @@ TEST(Sweep, LinesFindEveryPointOfTheTileEquallyLikely) {
     }
 }
 
+/// Along an axis or a diagonal every line comes through the same places of its cells again and
+/// again: two passes, half a cell aside, where one would do.
+TEST(Sweep, LightAlongTheGridPassesTwice) {
+    const Heightfield s = tile(96, 64);
+    const auto passes = [&](double phi) {
+        const Incidence light{1, 0.3, radians(phi), false};
+        const SweepBatch b(s, light, {LaunchPattern::LowDiscrepancy, 2000, 17, 2, 0});
+        int count = 0;
+        for (std::uint64_t n = 0; n < b.stripes(); ++n) count += b.begins_pass(n) ? 1 : 0;
+        return count;
+    };
+    EXPECT_EQ(passes(70), 1);
+    for (const double phi : {0.0, 90.0, 45.0, 135.0, 180.0, 270.0}) EXPECT_EQ(passes(phi), 2);
+}
+
 TEST(Sweep, LinesHoldAllRaysAndNoneTwice) {
     const Heightfield s = tile(100, 40);
     for (const double phi : {0.0, 50.0, 90.0, 200.0})
