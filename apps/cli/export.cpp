@@ -184,17 +184,19 @@ class ExportVerb {
 
     static Json json_of(const std::string& path, const io::BsdfFormat& format,
                         const io::Fidelity& fidelity, const std::vector<std::string>& remarks) {
-        Json json = {{"file", path},
-                     {"format", format.name},
-                     {"mean_l1", fidelity.mean_l1},
-                     {"worst_l1", fidelity.worst_l1},
-                     {"worst_theta_i_deg", degrees(fidelity.worst_theta_i)},
-                     {"mean_noise", fidelity.mean_noise},
-                     {"mean_l1_isotropic",
-                      fidelity.mean_isotropy < 0 ? Json() : Json(fidelity.mean_isotropy)},
-                     {"max_albedo_difference", fidelity.max_albedo_difference},
-                     {"remarks", remarks},
-                     {"layers", Json::array()}};
+        Json json = {
+            {"file", path},
+            {"format", format.name},
+            {"mean_l1", fidelity.mean_l1},
+            {"worst_l1", fidelity.worst_l1},
+            {"worst_theta_i_deg", degrees(fidelity.worst_theta_i)},
+            {"mean_noise", fidelity.mean_noise},
+            {"mean_l1_isotropic",
+             fidelity.mean_isotropy < 0 ? Json() : Json(fidelity.mean_isotropy)},
+            {"mean_l1_format", fidelity.mean_format < 0 ? Json() : Json(fidelity.mean_format)},
+            {"max_albedo_difference", fidelity.max_albedo_difference},
+            {"remarks", remarks},
+            {"layers", Json::array()}};
         for (const auto& layer : fidelity.layers)
             json["layers"].push_back({{"theta_i_deg", degrees(layer.theta_i)},
                                       {"phi_i_deg", degrees(layer.phi_i)},

@@ -36,6 +36,17 @@ class OneChannel final : public Bsdf {
     const Bsdf& bsdf_;
 };
 
+/// Mean L1 as a share of the albedo of A, over the layers below kLastAngle.
+double mean_share(const Comparison& comparison) {
+    double sum = 0, count = 0;
+    for (const LayerComparison& layer : comparison.layers) {
+        if (degrees(layer.theta_i) >= kLastAngle || !(layer.albedo_a > 0)) continue;
+        sum += layer.l1 / layer.albedo_a;
+        ++count;
+    }
+    return sum / std::max(1.0, count);
+}
+
 Comparison comparison_of(const ExportSource& source, const Bsdf& file) {
     if (source.measurement()) return compare(*source.measurement(), file, source.threads());
     Experiment experiment = source.experiment();
@@ -71,14 +82,13 @@ Fidelity fidelity_of(const ExportSource& source, const BsdfFormat& format,
     const double count = std::max(1.0, static_cast<double>(result.layers.size()));
     result.mean_l1 /= count;
     result.mean_noise /= count;
-    if (source.measurement() && file->isotropic()) {
-        const Comparison best = comparison_of(source, source.isotropic_bsdf());
-        double sum = 0;
-        for (const LayerComparison& layer : best.layers)
-            if (degrees(layer.theta_i) < kLastAngle && layer.albedo_a > 0)
-                sum += layer.l1 / layer.albedo_a;
-        result.mean_isotropy = sum / count;
-    }
+    if (!source.measurement()) return result;
+    const Bsdf& made_from = file->isotropic() ? source.isotropic_bsdf() : source.bsdf();
+    if (file->isotropic()) result.mean_isotropy = mean_share(comparison_of(source, made_from));
+    const OneChannel grey(*file);
+    const Bsdf& read = as_grey ? static_cast<const Bsdf&>(grey) : *file;
+    result.mean_format =
+        mean_share(compare(made_from, read, source.experiment(), source.threads()));
     return result;
 }
 
@@ -90,9 +100,11 @@ std::string to_text(const Fidelity& f) {
                                           100 * f.mean_isotropy);
     return fmt::format(
         "read back: L1 of f cos {:.2f} % (mean of {} layers below 85°), worst {:.2f} % at {:.4g}°, "
-        "albedo {:+.4f} at most; noise of the data alone {:.2f} %{}",
+        "albedo {:+.4f} at most; noise of the data alone {:.2f} %{}{}",
         100 * f.mean_l1, f.layers.size(), 100 * f.worst_l1, degrees(f.worst_theta_i),
-        f.max_albedo_difference, 100 * f.mean_noise, isotropy);
+        f.max_albedo_difference, 100 * f.mean_noise, isotropy,
+        f.mean_format < 0 ? ""
+                          : fmt::format(", of the format alone {:.2f} %", 100 * f.mean_format));
 }
 
 }  // namespace asperity::io

@@ -25,6 +25,9 @@ struct Fidelity {
     /// Mean L1 of the source against what it is for a format without azimuths, isotropic and
     /// mirrored: no isotropic file can be closer. Negative: not asked, the file has azimuths.
     double mean_isotropy = -1;
+    /// Mean L1 of the file against the continuous function it was made from, noise apart: what the
+    /// format alone loses. Negative: the source is no measurement, mean_l1 says it.
+    double mean_format = -1;
     double max_albedo_difference = 0;  ///< the one farthest from 0, with its sign
 };
 

@@ -98,7 +98,7 @@ Grid grid_of(const ExportSource& source, const FormatOptions& options, bool isot
     const int columns = source.experiment().detector.resolution;
     grid.n = static_cast<std::size_t>(
         options.count("n", 4, 1024,
-                      source.measurement() ? std::clamp(columns / 4, 32, isotropic ? 64 : 32)
+                      source.measurement() ? std::clamp(columns / 2, 32, isotropic ? 64 : 32)
                                            : (isotropic ? 64 : 32)));
     grid.normals = static_cast<std::size_t>(options.count("normals", 8, 2048, 128));
     const int thetas = options.count("theta", 2, 512, 0);
