@@ -6,6 +6,7 @@ what it is doing when that ends: a parent that was killed leaves nobody behind."
 
 from __future__ import annotations
 
+import os
 import select
 import signal
 import sys
@@ -38,4 +39,7 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except BrokenPipeError:
+        os._exit(0)  # nobody hears any more, nor what Python would say of it
