@@ -202,6 +202,7 @@ void Measuring::describe(const Talk& say, const Measurement& head,
     say("surface: " + surface_line(settings, head.surface, surface.nx, surface.ny) + "\n");
     const std::string tiling = tiling_line(settings, surface);
     if (!tiling.empty()) say("surface: " + tiling + "\n");
+    if (!surface.prepared.empty()) say("surface: made ready: " + surface.prepared + "\n");
 }
 
 void Measuring::tell(const Talk& say, const Measurement& m, const std::string& checksum,

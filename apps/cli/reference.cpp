@@ -77,7 +77,7 @@ std::string kinds_page() {
             fmt::format("| `{}` | {} | {} |\n", kind.name, cell(kind.doc), fmt::join(names, ", "));
     }
     return text + "\nAll of them use size, boundary, cell-size, height-scale and diagonal; files " +
-           "of heights use\ntiling and the last four.\n";
+           "of heights use\nthe last four and the settings that name files as their users.\n";
 }
 
 }  // namespace

@@ -42,6 +42,10 @@ class SurfaceVerb {
         png_ = add_text(app, "--png", "FILE", "draw the surface seen from above", kOutput);
         look_ = add_text(app, "--look", "NAME", "of the picture: shaded or normals", kOutput)
                     ->default_str("shaded");
+        app.add_flag("--before", before_,
+                     "with --png, of a file: draw the heights as the file has them and, beside "
+                     "them, made ready")
+            ->group(kOutput);
         app.add_flag("--stats", stats_, "show the realised figures")->group(kOutput);
         app.add_flag("--list", list_, "list the channels of the file and nothing else")
             ->group(kOutput);
@@ -58,19 +62,22 @@ class SurfaceVerb {
         }
         const SurfaceSettings settings = experiment_.read(spec).surface;
         check_outputs();
+        if (before_ && (png_->count() == 0 || settings.kind != kSurfaceFile))
+            throw Error(ErrorCode::Usage, "it is for --png of a surface from a file", "before");
         const Talk say(quiet_, json_);
         Run run(threads_.threads());
         const StopOnSignal stop(run);
         ProgressBar progress(run, quiet_);
         if (list_) return list(settings, run, progress);
-        const Heightfield surface = io::load_surface(settings, run);
-        const SurfaceReport report(settings, surface, run.threads());
+        const Heightfield patch = io::load_patch(settings, run);
+        const Heightfield surface = io::tiled(patch, settings);
+        const SurfaceReport report(settings, patch, surface, run);
         if (run.stop_requested()) throw Error(ErrorCode::Stopped, "stopped, nothing is written");
         progress.clear();
 
         if (output_->count() > 0) io::write_heights(surface, text_of(output_));
-        if (png_->count() > 0) io::write_surface_png(surface, text_of(png_), look());
-        if (json_) write_json(report.json());
+        if (png_->count() > 0) draw(settings, patch, surface, run);
+        if (json_) write_json(report.json(run));
         if (!json_) tell(say, report);
         return 0;
     }
@@ -89,6 +96,14 @@ class SurfaceVerb {
         }
         Talk(quiet_, false)(text);
         return 0;
+    }
+
+    void draw(const SurfaceSettings& settings, const Heightfield& patch, const Heightfield& surface,
+              Run& run) const {
+        if (before_)
+            io::write_before_after_png(io::read_topography(settings, run), patch, text_of(png_));
+        else
+            io::write_surface_png(surface, text_of(png_), look());
     }
 
     io::SurfaceLook look() const {
@@ -128,7 +143,7 @@ class SurfaceVerb {
     ExperimentOptions experiment_;
     ThreadsOption threads_;
     CLI::Option *spec_ = nullptr, *output_ = nullptr, *png_ = nullptr, *look_ = nullptr;
-    bool stats_ = false, json_ = false, quiet_ = false, list_ = false;
+    bool stats_ = false, json_ = false, quiet_ = false, list_ = false, before_ = false;
 };
 
 }  // namespace

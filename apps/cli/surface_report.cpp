@@ -37,18 +37,20 @@ const char* boundary_name(const Heightfield& surface) {
 
 }  // namespace
 
-SurfaceReport::SurfaceReport(const SurfaceSettings& settings, const Heightfield& surface,
-                             int threads)
+SurfaceReport::SurfaceReport(const SurfaceSettings& settings, const Heightfield& patch,
+                             const Heightfield& surface, Run& run)
     : settings_(settings),
       surface_(surface),
-      statistics_(statistics(surface, threads)),
-      distances_(law_distances(settings, surface, statistics_, threads)) {}
+      statistics_(statistics(surface, run.threads())),
+      distances_(law_distances(settings, surface, statistics_, run.threads())),
+      texture_(settings, patch, run) {}
 
 std::string SurfaceReport::headline() const {
     std::string text = surface_line(settings_, statistics_, surface_.nx, surface_.ny) + "\n";
     const std::string tiling = tiling_line(settings_, surface_);
     if (!tiling.empty()) text += tiling + "\n";
     if (!surface_.source.empty()) text += surface_.source + "\n";
+    if (!surface_.prepared.empty()) text += "made ready: " + surface_.prepared + "\n";
     return text;
 }
 
@@ -80,10 +82,10 @@ std::string SurfaceReport::figures() const {
                         distances_->beckmann, distances_->ggx,
                         alpha_was_asked(settings_) ? "asked" : "realised"));
     }
-    return text;
+    return text + texture_.text();
 }
 
-Json SurfaceReport::json() const {
+Json SurfaceReport::json(Run& run) const {
     Json json;
     json["name"] = surface_.name;
     json["kind"] = kind_name(settings_);
@@ -97,6 +99,7 @@ Json SurfaceReport::json() const {
     json["isotropic"] = surface_.isotropic;
     if (settings_.kind == kSurfaceFile) json["tiling"] = tiling_line(settings_, surface_);
     if (!surface_.source.empty()) json["source"] = surface_.source;
+    if (!surface_.prepared.empty()) json["prepared"] = surface_.prepared;
     json["asked"] = Json::object();
     if (surface_uses(settings_.kind, "roughness")) json["asked"]["roughness"] = settings_.roughness;
     if (alpha_was_asked(settings_)) {
@@ -107,6 +110,7 @@ Json SurfaceReport::json() const {
     if (distances_) {
         json["slope_distance"] = {{"beckmann", distances_->beckmann}, {"ggx", distances_->ggx}};
     }
+    json["texture"] = texture_.json(run);
     return json;
 }
 

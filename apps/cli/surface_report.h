@@ -2,6 +2,7 @@
 #pragma once
 
 #include "report_json.h"
+#include "texture_report.h"
 
 #include <asperity/surface/heightfield.h>
 #include <asperity/surface/statistics.h>
@@ -21,19 +22,22 @@ struct LawDistances {
 /// What `asperity surface` tells about a surface. Keeps references.
 class SurfaceReport {
   public:
-    SurfaceReport(const SurfaceSettings& settings, const Heightfield& surface, int threads);
+    /// `patch`: the surface before it was made to fill the plane.
+    SurfaceReport(const SurfaceSettings& settings, const Heightfield& patch,
+                  const Heightfield& surface, Run& run);
 
     /// One line, or two for a file.
     std::string headline() const;
     /// All figures, a line each.
     std::string figures() const;
-    Json json() const;
+    Json json(Run& run) const;
 
   private:
     const SurfaceSettings& settings_;
     const Heightfield& surface_;
     SurfaceStatistics statistics_;
     std::optional<LawDistances> distances_;  ///< none for a surface without slopes along x or y
+    TextureReport texture_;
 };
 
 }  // namespace asperity::cli

@@ -14,6 +14,7 @@
 #include <asperity/core/directions.h>
 #include <asperity/core/energy.h>
 #include <asperity/core/error.h>
+#include <asperity/core/length.h>
 #include <asperity/core/parallel.h>
 #include <asperity/core/run.h>
 #include <asperity/core/vec.h>
@@ -90,6 +91,7 @@
 #include <asperity/surface/heightfield.h>
 #include <asperity/surface/make_surface.h>
 #include <asperity/surface/normal_distribution.h>
+#include <asperity/surface/preparation.h>
 #include <asperity/surface/slope_distribution.h>
 #include <asperity/surface/statistics.h>
 #include <asperity/surface/surface_kinds.h>

@@ -71,7 +71,7 @@ def damaged(make, ending):
         yield "more samples told than there are", make(8, 9, heights)
         yield "header alone", good[:60]
     if ending != "png":
-        for name in ("nan", "inf", "-inf"):
+        for name in ("inf", "-inf"):
             yield f"a height of {name}", make(8, 8, heights[:9] + [float(name)] + heights[10:])
     else:
         yield "8 bits", make(8, 8, heights, bits=8)

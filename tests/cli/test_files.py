@@ -29,6 +29,20 @@ class HeightFiles(ProgramTest):
                 self.assertEqual((read["nx"], read["ny"]), (8, 8))
                 self.assertAlmostEqual(read["realised"]["max_height"], max(heights), 4)
 
+    def test_nan_is_a_missing_point(self):
+        """It is filled, and that is said; four of 64 are more than is filled unasked."""
+        heights = [(7 * k % 16) / 16 for k in range(64)]
+        for ending in ("gsf", "exr", "txt"):
+            with self.subTest(ending):
+                name = f"a.{ending}"
+                write(name, FORMATS[ending](8, 8, heights[:9] + [float("nan")] + heights[10:]))
+                self.assertIn("1 point (1.56 %) filled smoothly",
+                              self.json_of("surface", name)["prepared"])
+                self.fails(3, "surface", name, "--fill", "none", saying="1 of 64 points are missing")
+                write(name, FORMATS[ending](8, 8, heights[:9] + 4 * [float("nan")] + heights[13:]))
+                self.fails(3, "surface", name, saying="4 of 64 points are missing (6.25 %)")
+                os.remove(name)
+
     def test_damaged(self):
         for ending, make in FORMATS.items():
             for what, data in damaged(make, ending):

@@ -47,6 +47,16 @@ OPTIONS = {
     "checkpoint": ([], ["0", "1e308"]),
 }
 
+# The same for those of files of heights.
+OF_FILES = {
+    "outliers": ["0"],
+    "filter-s": [],
+    "filter-l": [],
+    "crop": ["1,2,3,4"],
+    "resample": [],
+    "wavelength": [],
+}
+
 TINY = ["--size", "32", "--resolution", "8", "--layers", "1", "--quiet", "-o", "r.asperity"]
 
 
@@ -54,13 +64,27 @@ class SillyNumbers(ProgramTest):
     def test_every_option_is_in_the_table(self):
         """A numeric option is one whose value help shows in capitals that stand for numbers."""
         names = {"--surface", "--autocorrelation", "--tiling", "--boundary", "--diagonal",
-                 "--format", "--channel", "--decimal", "--fresnel", "--material", "--detector",
+                 "--format", "--channel", "--decimal", "--fill", "--level", "--fresnel", "--material", "--detector",
                  "--launch", "--config", "--reference", "--output", "--along-y", "--isotropic",
                  "--json", "--quiet", "--help", "--engine", "--part", "--resume"}
         help_lines = self.passes("simulate", "--help").split("\nExamples")[0].splitlines()
         listed = {word.rstrip(",") for line in help_lines for word in line.split()[:2]
                   if line.startswith("  ") and word.startswith("--")}
-        self.assertEqual(listed - names, {"--" + option for option in OPTIONS})
+        self.assertEqual(listed - names, {"--" + option for option in [*OPTIONS, *OF_FILES]})
+
+    def test_refused_of_files(self):
+        self.passes("surface", "gaussian", "--size", "32", "--quiet", "-o", "heights.txt")
+        for option, fine in OF_FILES.items():
+            for value in SILLY:
+                with self.subTest(option=option, value=value):
+                    arguments = ["surface", "heights.txt", "--quiet", "-o", "r.gsf", "--" + option,
+                                 value]
+                    if value not in fine:
+                        self.fails(2, *arguments, saying=option)
+                        self.assertEqual(os.listdir("."), ["heights.txt"])
+                        continue
+                    self.passes(*arguments)
+                    os.remove("r.gsf")
 
     def test_refused(self):
         for option, (others, fine) in OPTIONS.items():

@@ -4,6 +4,8 @@
 #include <asperity/bsdf/spec.h>
 #include <asperity/core/error.h>
 #include <asperity/formats/bsdfs/bsdf_format.h>
+#include <asperity/formats/heights/heights_format.h>
+#include <asperity/formats/heights/heights_test_files.h>
 #include <asperity/formats/heights/surface_files.h>
 #include <asperity/formats/images/image_reader.h>
 #include <asperity/formats/images/render_writer.h>
@@ -156,8 +158,12 @@ const Seeds kPictureWords = {"dataWindow", "displayWindow", "box2i",
 
 // Heights
 
-void read_surface(const std::string& path) {
-    const Heightfield surface = io::read_heights(path);
+void read_surface(const std::string& path, const std::string& format) {
+    Run run(1);
+    Preparation how;
+    how.fill = Fill::Smooth;
+    const Heightfield surface =
+        prepare(io::read_topography(path, {format, {}, {}}, run), how, path, run);
     require(surface.nx > 1 && surface.ny > 1 &&
                 surface.heights.size() ==
                     static_cast<std::size_t>(surface.nx) * static_cast<std::size_t>(surface.ny),
@@ -271,17 +277,26 @@ void write_grey_png(const std::string& path) {
     png_image_write_to_file(&image, path.c_str(), 0, heights.data(), 0, nullptr);
 }
 
+/// A row of the registry starts from what its writer writes, or from the files made for it.
+Seeds height_seeds(const io::HeightsFormat& format, const std::string& name) {
+    Seeds seeds;
+    if (format.write)
+        seeds.push_back(
+            written(name, [&](const std::string& path) { format.write(small_surface(), path); }));
+    if (format.name == "png") seeds.push_back(written(name, write_grey_png));
+    for (const io::test::HeightsTestFile& file : io::test::heights_test_files())
+        if (file.format == format.name) seeds.push_back(file.bytes);
+    return seeds.empty() ? Seeds{std::string()} : seeds;
+}
+
 void add_heights(std::vector<Reader>& all) {
-    for (const char* ending : {"gsf", "txt", "exr", "png"}) {
-        const std::string name = std::string("a.") + ending;
-        const std::string seed = written(name, [&](const std::string& path) {
-            if (path.ends_with(".png"))
-                write_grey_png(path);
-            else
-                io::write_heights(small_surface(), path);
-        });
+    const io::HeightsFormats formats;
+    for (const io::HeightsFormat& format : formats.rows()) {
+        if (!format.open) continue;
+        const std::string name = format.endings.empty() ? "a.txt" : "a." + format.endings.front();
         all.push_back(
-            {std::string("heights-") + ending, name, {seed}, kHeightsWords, read_surface});
+            {"heights-" + plain(format.name), name, height_seeds(format, name), kHeightsWords,
+             [name = format.name](const std::string& path) { read_surface(path, name); }});
     }
 }
 

@@ -71,6 +71,7 @@ SurfaceHandle from_array(const HeightsArray& z, std::pair<double, double> spacin
     topography.name = name;
     topography.isotropic = isotropic;
     if (!found.empty()) topography.note(found);
+    topography.ours = true;  // an array is taken as it is
     topography.heights.assign(z.data(), z.data() + nx * ny);
     for (std::size_t k = 0; k < nx * ny; ++k)
         if (std::isnan(topography.heights[k])) topography.mark_missing(k);
@@ -98,7 +99,7 @@ State state_of(const SurfaceHandle& s) {
             static_cast<int>(h.diagonal),
             static_cast<int>(h.boundary),
             h.isotropic,
-            {h.unit, h.name, h.tiling, h.source},
+            {h.unit, h.name, h.tiling, h.source, h.prepared},
             texts};
 }
 
@@ -118,6 +119,7 @@ void set_state(SurfaceHandle& s, const State& state) {
     h.name = words.at(1);
     h.tiling = words.at(2);
     h.source = words.at(3);
+    h.prepared = words.at(4);
     new (&s) SurfaceHandle(handle_of(std::move(h), surface_settings(texts)));
 }
 

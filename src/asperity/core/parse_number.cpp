@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/parse_number.h>
 
+#include <asperity/core/printable.h>
+
 #include <array>
 #include <cmath>
 
@@ -36,11 +38,8 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }
 
 std::string in_quotes(std::string_view text) {
-    std::string result = "'";
-    for (const char c : text.substr(0, kQuotedLength))
-        result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-    result += text.size() > kQuotedLength ? "...'" : "'";
-    return result;
+    return "'" + printable(text.substr(0, kQuotedLength)) +
+           (text.size() > kQuotedLength ? "...'" : "'");
 }
 
 std::optional<double> parse_double(std::string_view text) {

@@ -26,6 +26,9 @@ Measurement head_of(const Heightfield& surface, const Experiment& experiment, co
     m.surface_cells = surface.cell_count();
     m.threads = run.threads();
     m.version = kVersion;
+    if (!surface.source.empty()) m.notes.push_back("the surface's file: " + surface.source);
+    if (!surface.prepared.empty())
+        m.notes.push_back("the surface was made ready: " + surface.prepared);
     if (experiment.illumination.isotropic && !surface.isotropic)
         m.notes.push_back(
             "the surface does not declare itself isotropic: layers are averages over the "

@@ -29,7 +29,9 @@ void Merge::add(Measurement part, const std::string& name) {
     if (sources_.empty()) {
         whole_ = part;
         whole_.layers.clear();
-        whole_.notes.clear();
+        // What is said of the surface holds for the whole
+        std::erase_if(whole_.notes,
+                      [](const std::string& note) { return !note.starts_with("the surface"); });
         whole_.trace_seconds = 0;
     }
     require_same_experiment(part, whole_, name);

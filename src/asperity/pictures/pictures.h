@@ -3,6 +3,7 @@
 
 #include <asperity/gonio/measurement.h>
 #include <asperity/surface/heightfield.h>
+#include <asperity/surface/topography.h>
 
 #include <string>
 #include <vector>
@@ -56,5 +57,12 @@ enum class SurfaceLook {
 /// surfaces as means over their facets, small ones facet by facet.
 /// Throws Error(InputOutput, path), Error(InvalidInput, path) for a surface that is not valid.
 void write_surface_png(const Heightfield& surface, const std::string& path, SurfaceLook look);
+
+/// Writes a topography as its file has it and, beside it, the surface that prepare() made of it:
+/// heights as colours, each picture with a bar of its own that leaves out the most extreme
+/// thousandth on either side; points without a height are black.
+/// Throws Error(InputOutput, path).
+void write_before_after_png(const Topography& before, const Heightfield& after,
+                            const std::string& path);
 
 }  // namespace asperity::io

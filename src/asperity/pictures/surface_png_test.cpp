@@ -28,6 +28,30 @@ TEST(SurfacePng, FlatSurfaceIsPureGreenInTheThesisLook) {
     EXPECT_EQ(png.at(500, 500), (std::vector<int>{0, 255, 0}));
 }
 
+// The tilt that was measured is a run of colours on the left; on the right all is alike but for a peak.
+// What was not measured is black.
+TEST(SurfacePng, BeforeAndAfterStandSideBySide) {
+    const test::TemporaryFolder folder;
+    Topography before;
+    before.nx = before.ny = 16;
+    before.dx = before.dy = 1e-6;
+    before.unit = "m";
+    for (int k = 0; k < 256; ++k) before.heights.push_back(1e-7 * (k % 16));
+    before.heights[8 * 16 + 8] += 1e-5;
+    before.mark_missing(0);
+    const Heightfield after = prepare(before, {}, "made", asperity::Run(1));
+    write_before_after_png(before, after, folder / "a.png");
+    const ReadPng png(folder / "a.png");
+    EXPECT_EQ(png.at(36 + 5, 76 + 5), (std::vector<int>{0, 0, 0}));
+    const auto green = [&](int left, int i, int j) {
+        return png.at(left + 20 + i * 620 / 16, 76 + 20 + j * 620 / 16)[1];
+    };
+    EXPECT_GT(green(36, 8, 8), 200);  // yellow
+    EXPECT_GT(green(36, 15, 3), green(36, 1, 3) + 10);
+    EXPECT_GT(green(72 + 620, 8, 8), 200);
+    EXPECT_NEAR(green(72 + 620, 15, 3), green(72 + 620, 1, 3), 5);
+}
+
 // Slope 1 along x: normal (-1, 0, 1) / sqrt(2), so red = green = 180 of 255, blue = 0. Along y,
 // blue takes the place of red.
 TEST(SurfacePng, SlopesAlongXAreRedAlongYBlue) {

@@ -42,6 +42,7 @@ struct Heightfield {
     std::string name;           ///< where it comes from, one line
     std::string tiling;         ///< how a file was made to fill the plane; empty for made surfaces
     std::string source;         ///< what was found in the file and assumed; empty for made surfaces
+    std::string prepared;       ///< what was done to it since, see prepare(); empty: nothing
 
     int cells_x() const { return boundary == Boundary::Periodic ? nx : nx - 1; }
     int cells_y() const { return boundary == Boundary::Periodic ? ny : ny - 1; }

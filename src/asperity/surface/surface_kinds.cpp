@@ -6,6 +6,7 @@
 #include <asperity/surface/surface_params.h>
 
 #include <algorithm>
+#include <iterator>
 #include <mutex>
 
 namespace asperity {
@@ -68,9 +69,12 @@ void add_surface_kind(SurfaceKind kind) {
 bool surface_uses(const std::string& kind, std::string_view setting) {
     for (const char* name : {"surface", "cell-size", "height-scale", "diagonal", "boundary"})
         if (setting == name) return true;
-    if (kind == kSurfaceFile)
-        return setting == "tiling" || setting == "format" || setting == "channel" ||
-               setting == "decimal";
+    if (kind == kSurfaceFile) {
+        constexpr std::string_view kOfFiles[] = {"tiling",   "format",   "channel",  "decimal",
+                                                 "fill",     "outliers", "level",    "filter-s",
+                                                 "filter-l", "crop",     "resample", "wavelength"};
+        return std::find(std::begin(kOfFiles), std::end(kOfFiles), setting) != std::end(kOfFiles);
+    }
     if (setting == "size") return true;
     const auto found = find_surface_kind(kind);
     return found && (contains(found->params, setting) || find(found->own, setting));

@@ -2,7 +2,9 @@
 // The settings of a surface: long because they are many.
 #include <asperity/surface/surface_params.h>
 
+#include <asperity/core/parse_number.h>
 #include <asperity/params/fields.h>
+#include <asperity/surface/preparation_params.h>
 #include <asperity/surface/surface_kinds.h>
 #include <asperity/surface/surface_text.h>
 
@@ -83,6 +85,25 @@ Param<S> file_row(std::string S::*member, ParamInfo info) {
             const std::string* word = std::get_if<std::string>(&v);
             s.*member = word ? *word : std::string();
         }};
+}
+
+Param<S> wavelength_row() {
+    const ParamInfo info = {
+        .name = "wavelength",
+        .metavar = "LENGTH",
+        .doc =
+            "of the light that is to fall on a surface in metres, as in 633nm: says whether "
+            "geometric optics holds; a material's wavelengths are another setting",
+        .written_where_used = true};
+    return {info, [](const S& s) { return ParamValue(text_of(s.wavelength)); },
+            [info](S& s, const ParamValue& v) {
+                const auto length = parse_length(std::get<std::string>(v));
+                const double metres = length ? in_unit(*length, "m").value_or(0) : 0;
+                if (!length || length->unit.empty() || !(metres > 0))
+                    refuse(info, in_quotes(std::get<std::string>(v)) +
+                                     " is no wavelength with its unit, such as 633nm");
+                s.wavelength = *length;
+            }};
 }
 
 ParamTable<S> shared_rows() {
@@ -196,6 +217,8 @@ std::string why_no_hurst(const S& s) {
 ParamTable<S> surface_params() {
     ParamTable<S> table = {kind_row()};
     for (Param<S>& row : shared_rows()) table.push_back(std::move(row));
+    append(table, preparation_params(), &S::ready);
+    table.push_back(wavelength_row());
     for (const SurfaceKind& kind : surface_kinds())
         table.insert(table.end(), kind.own.begin(), kind.own.end());
     for (Param<S>& row : table) {

@@ -3,6 +3,7 @@
 
 #include <asperity/params/param.h>
 #include <asperity/surface/heightfield.h>
+#include <asperity/surface/preparation.h>
 
 #include <cstdint>
 #include <map>
@@ -63,7 +64,9 @@ struct SurfaceSettings {
     bool along_y = false;  ///< tilted, vgroove, sawtooth, sinusoid vary along y, not along x
     std::string file;      ///< kind kSurfaceFile
     std::string file_format, file_channel, file_decimal;  ///< kind kSurfaceFile: HeightsOptions
-    Tiling tiling = Tiling::Auto;                         ///< kind kSurfaceFile
+    Preparation ready = {};                               ///< kind kSurfaceFile
+    Length wavelength = {550, "nm"};  ///< kind kSurfaceFile, in metres: is geometric optics right?
+    Tiling tiling = Tiling::Auto;     ///< kind kSurfaceFile
     std::optional<double> cell_x, cell_y;  ///< spacing; default 1 cell, or what the file says;
                                            ///< sides differ by 100 times at most
     double height_scale = 1;  ///< multiplies the heights after all else; negative turns them over

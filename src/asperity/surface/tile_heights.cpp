@@ -34,6 +34,8 @@ Heightfield mirrored(const Heightfield& patch) {
     tile.isotropic = patch.isotropic;
     tile.unit = patch.unit;
     tile.name = patch.name;
+    tile.source = patch.source;
+    tile.prepared = patch.prepared;
 
     const auto nx = static_cast<std::size_t>(patch.nx), ny = static_cast<std::size_t>(patch.ny);
     tile.heights.reserve((2 * nx - 2) * (2 * ny - 2));

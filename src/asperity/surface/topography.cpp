@@ -2,11 +2,13 @@
 #include <asperity/surface/topography.h>
 
 #include <asperity/core/error.h>
+#include <asperity/surface/make_ready.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace asperity {
 namespace {
@@ -29,7 +31,8 @@ double offset_to_remove(const std::vector<double>& heights) {
     if (std::max(std::abs(*low), std::abs(*high)) <= kFarOffset * (*high - *low)) return 0;
     double sum = 0;
     for (const double h : heights) sum += h - *low;
-    return *low + sum / static_cast<double>(heights.size());
+    const double mean = *low + sum / static_cast<double>(heights.size());
+    return std::isfinite(mean) ? mean : 0;
 }
 
 }  // namespace
@@ -51,6 +54,10 @@ void Topography::assume(const std::string& what) {
     append(assumed, what);
 }
 
+void Topography::did(const std::string& what) {
+    append(prepared, what);
+}
+
 std::string describe(const Topography& topography) {
     std::string text = topography.found;
     if (const std::size_t gone = topography.missing_count())
@@ -59,27 +66,32 @@ std::string describe(const Topography& topography) {
     return text;
 }
 
-Heightfield prepare(Topography topography, const std::string& where) {
-    if (const std::size_t gone = topography.missing_count())
-        throw Error(ErrorCode::InvalidInput,
-                    fmt::format("{} of {} points are missing ({:.3g} %), and filling them (--fill) "
-                                "is not there yet",
-                                gone, topography.heights.size(),
-                                100.0 * static_cast<double>(gone) /
-                                    static_cast<double>(topography.heights.size())),
-                    where);
+bool is_measurement(const Topography& topography) {
+    return metres_per(topography.unit) > 0 && !topography.ours;
+}
+
+Heightfield prepare(Topography topography, const Preparation& how, const std::string& where,
+                    const Run& run) {
     if (topography.dx == 0 || topography.dy == 0)
         throw Error(ErrorCode::InvalidInput,
                     fmt::format("the heights are in {}, but nothing in the file says how far apart "
                                 "the samples are: --cell-size in {} decides",
                                 topography.unit, topography.unit),
                     where);
+    for (const double step : {topography.dx, topography.dy})
+        if (!(step >= kLeastSpacing && step <= kMostSpacing))
+            throw Error(ErrorCode::InvalidInput,
+                        fmt::format("cell size {} x {} must be {} to {}", topography.dx,
+                                    topography.dy, kLeastSpacing, kMostSpacing),
+                        where);
+    Heightfield surface;
+    surface.source = describe(topography);
+    make_ready(topography, how, where, run);
     const double offset = offset_to_remove(topography.heights);
-    if (offset != 0 && std::isfinite(offset))
-        topography.note(
+    if (offset != 0)
+        topography.did(
             fmt::format("heights counted from their mean of {:.9g} {}", offset, topography.unit));
 
-    Heightfield surface;
     surface.nx = topography.nx, surface.ny = topography.ny;
     surface.dx = topography.dx, surface.dy = topography.dy;
     surface.boundary = topography.boundary;
@@ -87,12 +99,10 @@ Heightfield prepare(Topography topography, const std::string& where) {
     surface.isotropic = topography.isotropic;
     surface.unit = topography.unit;
     surface.name = topography.name.empty() ? where : topography.name;
-    surface.source = describe(topography);
+    surface.prepared = topography.prepared;
     surface.heights.reserve(topography.heights.size());
-    for (const double h : topography.heights) {
-        const double height = h - (std::isfinite(offset) ? offset : 0.0);
-        surface.heights.push_back(static_cast<float>(height));
-    }
+    for (const double h : topography.heights)
+        surface.heights.push_back(static_cast<float>(h - offset));
     validate(surface, where);
     return surface;
 }

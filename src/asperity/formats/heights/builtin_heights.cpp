@@ -9,11 +9,18 @@
 namespace asperity::io {
 namespace {
 
-// A format whose reader gives the one surface of the file as floats.
 template <Heightfield (*Read)(const std::string&)>
+Topography read_floats(const std::string& path) {
+    return as_topography(Read(path));
+}
+
+// A format whose reader gives the one surface of the file.
+template <Topography (*Read)(const std::string&)>
 std::vector<HeightsChannel> open(const HeightsSource& source) {
-    const auto t = std::make_shared<Topography>(as_topography(Read(source.path())));
-    if (t->unit == "cell" && t->dx == 1 && t->dy == 1)
+    const auto t = std::make_shared<Topography>(Read(source.path()));
+    if (t->ours)
+        t->note("as Asperity wrote it");
+    else if (t->unit == "cell" && t->dx == 1 && t->dy == 1)
         t->assume("no scale in the file: spacing 1 cell, heights in cells");
     else
         t->note(t->unit == "m" ? "heights and spacing of " + length_text(t->dx) + " from the header"
@@ -49,7 +56,7 @@ Topography as_topography(const Heightfield& surface) {
     t.isotropic = surface.isotropic;
     t.heights.assign(surface.heights.begin(), surface.heights.end());
     for (std::size_t k = 0; k < t.heights.size(); ++k) {
-        if (std::isfinite(t.heights[k])) continue;
+        if (!std::isnan(t.heights[k])) continue;
         t.heights[k] = 0;
         t.mark_missing(k);
     }
@@ -65,14 +72,18 @@ HeightsFormat gsf_format() {
 HeightsFormat exr_format() {
     return {"exr",
             {"exr"},
-            "OpenEXR: the one channel",
+            "OpenEXR: the one channel, or colours that are alike",
             starts_with_exr,
-            open<read_exr_heights>,
+            open<read_floats<read_exr_heights>>,
             write_exr_heights};
 }
 
 HeightsFormat png_format() {
-    return {"png",  {"png"}, "PNG: grey, 8 or 16 bits", starts_with_png, open<read_png_heights>,
+    return {"png",
+            {"png"},
+            "PNG: grey or colours that are alike, 8 or 16 bits",
+            starts_with_png,
+            open<read_floats<read_png_heights>>,
             nullptr};
 }
 

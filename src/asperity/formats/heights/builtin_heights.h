@@ -27,7 +27,7 @@ HeightsFormat tmd_format();
 HeightsFormat x3p_format();
 HeightsFormat xyz_format();
 
-/// The samples of a format that knows 32-bit floats; those that are not finite are missing.
+/// The samples of a format that knows 32-bit floats; NaN is a missing point.
 Topography as_topography(const Heightfield& surface);
 
 }  // namespace asperity::io

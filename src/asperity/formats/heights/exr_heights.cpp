@@ -6,12 +6,17 @@
 #include <ImfOutputFile.h>
 #include <asperity/core/error.h>
 #include <asperity/core/parse_number.h>
+#include <asperity/core/printable.h>
 #include <asperity/formats/exr/exr_errors.h>
 #include <asperity/formats/exr/exr_outline.h>
 #include <asperity/formats/exr/exr_stream.h>
 #include <asperity/formats/heights/height_files.h>
 #include <asperity/formats/read_file.h>
 #include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
 
 namespace asperity::io {
 namespace {
@@ -20,11 +25,13 @@ namespace {
     throw Error(ErrorCode::InvalidInput, why, path);
 }
 
-std::string only_channel(const Imf::Header& header, const std::string& path) {
-    std::string names, name;
-    int count = 0;
-    for (auto it = header.channels().begin(); it != header.channels().end(); ++it, ++count) {
-        name = it.name();
+/// The one channel, or R, G and B, which must be alike.
+std::vector<std::string> usable_channels(const Imf::Header& header, const std::string& path) {
+    std::string names;
+    std::vector<std::string> all;
+    for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
+        const std::string name = it.name();
+        all.push_back(name);
         names += (names.empty() ? "" : ", ") + name;
         if (it.channel().type == Imf::UINT)
             refuse(path, fmt::format("channel {} holds integers, heights need half or float",
@@ -32,27 +39,41 @@ std::string only_channel(const Imf::Header& header, const std::string& path) {
         if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
             refuse(path, fmt::format("channel {} is subsampled", in_quotes(name)));
     }
-    if (count != 1) refuse(path, fmt::format("{} channels ({}), heights need one", count, names));
-    return name;
+    if (all.size() != 1 && all != std::vector<std::string>{"B", "G", "R"})
+        refuse(path,
+               fmt::format("{} channels ({}), heights need one", all.size(), printable(names)));
+    return all;
 }
 
 Heightfield read_image(const InputFile& file) {
     const std::string& path = file.path();
     Imf::InputFile image(path.c_str());
     if (!image.isComplete()) refuse(path, "the image is incomplete");
-    const std::string channel = only_channel(image.header(), path);
+    const std::vector<std::string> channels = usable_channels(image.header(), path);
 
     const auto box = image.header().dataWindow();
     const auto nx = static_cast<std::uint64_t>(box.max.x - box.min.x + 1);
     const auto ny = static_cast<std::uint64_t>(box.max.y - box.min.y + 1);
     Heightfield surface = empty_patch(nx, ny, path);
 
-    Imf::FrameBuffer frame;
     const auto row_bytes = static_cast<std::size_t>(nx) * sizeof(float);
-    frame.insert(channel, Imf::Slice::Make(Imf::FLOAT, surface.heights.data(), box, sizeof(float),
-                                           row_bytes));
+    std::vector<std::vector<float>> others(channels.size() - 1,
+                                           std::vector<float>(surface.heights.size()));
+    Imf::FrameBuffer frame;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        float* const values = c == 0 ? surface.heights.data() : others[c - 1].data();
+        frame.insert(channels[c],
+                     Imf::Slice::Make(Imf::FLOAT, values, box, sizeof(float), row_bytes));
+    }
     image.setFrameBuffer(frame);
     image.readPixels(box.min.y, box.max.y);
+    for (const std::vector<float>& other : others)
+        for (std::size_t k = 0; k < other.size(); ++k) {
+            const float a = surface.heights[k], b = other[k];
+            if (a != b && !(std::isnan(a) && std::isnan(b)))
+                refuse(path,
+                       fmt::format("the colours differ at sample {}, heights need one channel", k));
+        }
     return surface;
 }
 

@@ -2,6 +2,7 @@
 #include <asperity/core/error.h>
 #include <asperity/core/parse_number.h>
 #include <asperity/formats/atomic_file.h>
+#include <asperity/formats/heights/builtin_heights.h>
 #include <asperity/formats/heights/height_files.h>
 #include <asperity/formats/read_file.h>
 #include <fmt/format.h>
@@ -172,7 +173,7 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-Heightfield read_gsf(const std::string& path) {
+Topography read_gsf(const std::string& path) {
     const InputFile file(path);
     const Header lines = read_header(file);
     const HeaderReader header(lines, path);
@@ -200,7 +201,11 @@ Heightfield read_gsf(const std::string& path) {
             .value_or(surface.boundary);
     surface.isotropic = header.choice("AsperityIsotropic", "true", true, "false", false)
                             .value_or(surface.isotropic);
-    return surface;
+    Topography topography = as_topography(surface);
+    topography.ours = header.text("AsperityBoundary").has_value();
+    topography.found = header.text("AsperitySource").value_or("");
+    topography.prepared = header.text("AsperityPrepared").value_or("");
+    return topography;
 }
 
 void write_gsf(const Heightfield& surface, const std::string& path) {
@@ -222,6 +227,8 @@ void write_gsf(const Heightfield& surface, const std::string& path) {
     add("AsperityIsotropic", surface.isotropic ? "true" : "false");
     add("AsperityCellX", shortest(surface.dx));
     add("AsperityCellY", shortest(surface.dy));
+    add("AsperitySource", one_line(surface.source));
+    add("AsperityPrepared", one_line(surface.prepared));
     header.append(kAlignment - header.size() % kAlignment, '\0');
 
     AtomicFile file(path);

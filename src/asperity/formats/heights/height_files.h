@@ -17,9 +17,10 @@ namespace asperity::io {
 /// Gwyddion Simple Field 1.0: a text header, 1 to 4 NUL bytes up to a multiple of 4, 32-bit floats.
 /// The spacing is XReal / XRes and YReal / YRes (1 for a size that is not given, as the format has
 /// it). Units of length with a prefix (nm, um, mm, ...) become m; no unit at all becomes "cell".
-Heightfield read_gsf(const std::string& path);
+Topography read_gsf(const std::string& path);
 /// Free keys AsperityDiagonal, AsperityBoundary, AsperityIsotropic, AsperityCellX and
 /// AsperityCellY keep what the format has no word for: reading gives the very same surface.
+/// AsperitySource and AsperityPrepared tell where it came from and what was done to it.
 void write_gsf(const Heightfield& surface, const std::string& path);
 
 /// The one channel of an OpenEXR image, half or float, scan lines or tiles. Spacing 1 cell.

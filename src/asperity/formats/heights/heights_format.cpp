@@ -3,6 +3,7 @@
 
 #include <asperity/core/error.h>
 #include <asperity/core/parse_number.h>
+#include <asperity/core/printable.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -128,7 +129,9 @@ const HeightsFormat& HeightsFormats::for_writing(const std::string& path) const 
 }
 
 std::vector<HeightsChannel> HeightsFormats::list(const HeightsSource& source) const {
-    return for_reading(source).open(source);
+    std::vector<HeightsChannel> channels = for_reading(source).open(source);
+    for (HeightsChannel& channel : channels) channel.name = printable(channel.name);
+    return channels;
 }
 
 Topography HeightsFormats::read(const HeightsSource& source) const {
@@ -141,6 +144,9 @@ Topography HeightsFormats::read(const HeightsSource& source) const {
             fmt::format("channel {} holds no heights: {}", in_quotes(channel.name), channel.other));
     Topography topography = channel.read();
     if (topography.name.empty()) topography.name = source.path();
+    for (std::string* text :
+         {&topography.name, &topography.found, &topography.assumed, &topography.prepared})
+        *text = printable(*text);
     return topography;
 }
 

@@ -15,43 +15,6 @@ namespace {
 
 constexpr std::uint64_t kMaxBytes = std::uint64_t{16} << 30;
 
-struct Unit {
-    const char* word;
-    double metres;
-};
-
-constexpr Unit kUnits[] = {
-    {"m", 1},
-    {"meter", 1},
-    {"metre", 1},
-    {"meters", 1},
-    {"metres", 1},
-    {"dm", 1e-1},
-    {"cm", 1e-2},
-    {"mm", 1e-3},
-    {"millimeter", 1e-3},
-    {"millimeters", 1e-3},
-    {"um", 1e-6},
-    {"\xc2\xb5m", 1e-6},  // micro sign, UTF-8
-    {"\xce\xbcm", 1e-6},  // Greek mu, UTF-8
-    {"\xb5m", 1e-6},      // Latin-1
-    {"\xe6m", 1e-6},      // code page 437, in Digital Surf's files
-    {"~m", 1e-6},         // SPIP
-    {"micron", 1e-6},
-    {"microns", 1e-6},
-    {"micrometer", 1e-6},
-    {"micrometers", 1e-6},
-    {"nm", 1e-9},
-    {"nanometer", 1e-9},
-    {"nanometers", 1e-9},
-    {"pm", 1e-12},
-    {"\xc3\x85", 1e-10},      // Angstrom letter, UTF-8
-    {"\xe2\x84\xab", 1e-10},  // Angstrom sign, UTF-8
-    {"\xc5", 1e-10},          // Latin-1
-    {"Angstrom", 1e-10},
-    {"km", 1e3},
-};
-
 }  // namespace
 
 HeightsSource::HeightsSource(const std::string& path, HeightsOptions options, Run& run)
@@ -120,20 +83,6 @@ void set_spacing(Topography& topography, double dx, double dy, const std::string
     topography.dy = dy;
     topography.note("heights in " + heights_in);
     topography.note("spacing " + length_text(dx) + (dx == dy ? "" : " x " + length_text(dy)));
-}
-
-std::string length_text(double metres) {
-    constexpr Unit kShown[] = {{"m", 1}, {"mm", 1e-3}, {"um", 1e-6}, {"nm", 1e-9}};
-    for (const Unit& unit : kShown)
-        if (std::abs(metres) >= 0.1 * unit.metres)
-            return fmt::format("{:.6g} {}", metres / unit.metres, unit.word);
-    return fmt::format("{:.6g} m", metres);
-}
-
-double metres_per(std::string_view unit) {
-    for (const Unit& known : kUnits)
-        if (unit == known.word) return known.metres;
-    return 0;
 }
 
 }  // namespace asperity::io

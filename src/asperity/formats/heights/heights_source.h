@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <asperity/core/length.h>
 #include <asperity/core/run.h>
 #include <asperity/surface/topography.h>
 
@@ -66,12 +67,5 @@ void check_sides(std::uint64_t nx, std::uint64_t ny, const std::string& path);
 /// um". Throws Error(InvalidInput, path) for a spacing that is no positive length.
 void set_spacing(Topography& topography, double dx_metres, double dy_metres,
                  const std::string& heights_in, const std::string& path);
-
-/// A length of metres in a unit that suits it: "0.366 um".
-std::string length_text(double metres);
-
-/// Metres per unit of a word such as "nm", "µm" in UTF-8 or Latin-1, "um", "microns", "A"; 0 for a
-/// word that is no unit of length.
-double metres_per(std::string_view unit);
 
 }  // namespace asperity::io

@@ -75,6 +75,25 @@ TEST(PngHeights, EightBits) {
     EXPECT_EQ(s.heights[3], 1.0f);
 }
 
+TEST(PngHeights, ColoursThatAreAlikeCountAsOne) {
+    const TemporaryFolder folder;
+    const std::string path = folder / "a.png";
+    write_png(path, 2, 2, 8, PNG_COLOR_TYPE_RGB,
+              "\x33\x33\x33\x66\x66\x66\xcc\xcc\xcc\xff\xff\xff");
+    EXPECT_FLOAT_EQ(read_heights(path).heights[1], 0.4f);
+    const std::string alike("\x80\x01\x80\x01\x80\x01\xff\xff", 8);
+    write_png(path, 2, 2, 16, PNG_COLOR_TYPE_RGB_ALPHA, alike + alike + alike + alike);
+    EXPECT_FLOAT_EQ(read_heights(path).heights[3], 32769.0f / 65535);
+    write_png(path, 2, 2, 8, PNG_COLOR_TYPE_RGB,
+              "\x33\x33\x33\x66\x66\x67\xcc\xcc\xcc\xff\xff\xff");
+    expect_error(ErrorCode::InvalidInput, "the colours differ at sample 1, heights need one",
+                 [&] { read_heights(path); });
+    write_png(path, 2, 2, 16, PNG_COLOR_TYPE_RGB_ALPHA,
+              alike + alike + alike.substr(0, 6) + "\x7f\x7f" + alike);
+    expect_error(ErrorCode::InvalidInput, "an alpha that is not full at sample 2",
+                 [&] { read_heights(path); });
+}
+
 TEST(PngHeights, RefusesOtherPictures) {
     const TemporaryFolder folder;
     const auto refused = [&](int width, int height, int depth, int colour, std::size_t bytes,
@@ -83,7 +102,6 @@ TEST(PngHeights, RefusesOtherPictures) {
         expect_error(ErrorCode::InvalidInput, "a.png: " + why,
                      [&] { read_heights(folder / "a.png"); });
     };
-    refused(2, 2, 8, PNG_COLOR_TYPE_RGB, 12, "heights need a grey PNG");
     refused(2, 2, 16, PNG_COLOR_TYPE_GRAY_ALPHA, 16, "heights need a grey PNG");
     refused(8, 2, 4, PNG_COLOR_TYPE_GRAY, 8, "heights need 8 or 16 bits, not 4");
     refused(1, 2, 8, PNG_COLOR_TYPE_GRAY, 2, "1 x 2 samples, 2 to 32768");
@@ -136,9 +154,11 @@ Imf::Header exr_header(const std::vector<std::pair<std::string, Imf::PixelType>>
 }
 
 void write_exr(const std::string& path,
-               const std::vector<std::pair<std::string, Imf::PixelType>>& channels) {
+               const std::vector<std::pair<std::string, Imf::PixelType>>& channels,
+               float last = -5) {
     const std::vector<half> halves = {0.5f, 1.0f, 2.0f, 3.0f, 4.0f, -5.0f};
-    const std::vector<float> floats(halves.begin(), halves.end());
+    std::vector<float> floats(halves.begin(), halves.end());
+    floats.back() = last;
     const std::vector<unsigned> integers(6, 1u);
     const Imf::Header header = exr_header(channels);
     Imf::FrameBuffer frame;
@@ -165,6 +185,12 @@ TEST(ExrHeights, HalfFloatAndAnyDataWindow) {
     }
 }
 
+TEST(ExrHeights, ColoursThatAreAlikeCountAsOne) {
+    const TemporaryFolder folder;
+    write_exr(folder / "a.exr", {{"R", Imf::HALF}, {"G", Imf::HALF}, {"B", Imf::FLOAT}});
+    EXPECT_EQ(read_heights(folder / "a.exr").heights, (std::vector<float>{0.5f, 1, 2, 3, 4, -5}));
+}
+
 TEST(ExrHeights, Tiles) {
     const TemporaryFolder folder;
     Imf::Header header(5, 4);
@@ -188,8 +214,10 @@ TEST(ExrHeights, RefusesOtherImages) {
         expect_error(ErrorCode::InvalidInput, "a.exr: " + why,
                      [&] { read_heights(folder / "a.exr"); });
     };
-    write_exr(folder / "a.exr", {{"R", Imf::HALF}, {"G", Imf::HALF}, {"B", Imf::FLOAT}});
-    refused("3 channels (B, G, R), heights need one");
+    write_exr(folder / "a.exr", {{"R", Imf::HALF}, {"G", Imf::HALF}, {"B", Imf::FLOAT}}, 7);
+    refused("the colours differ at sample 5, heights need one");
+    write_exr(folder / "a.exr", {{"R", Imf::HALF}, {"G", Imf::HALF}});
+    refused("2 channels (G, R), heights need one");
     write_exr(folder / "a.exr", {{"id", Imf::UINT}});
     refused("channel 'id' holds integers");
     put(folder / "a.exr", "");

@@ -17,57 +17,69 @@ void apply_cell_size(Topography& surface, const SurfaceSettings& settings) {
     }
 }
 
-/// Makes the surface fill the plane and says in its `tiling` how.
-void tile(Heightfield& surface, Tiling tiling) {
-    const bool says_periodic = surface.boundary == Boundary::Periodic;
-    if (tiling == Tiling::Finite) {
-        surface.boundary = Boundary::Finite;
-        surface.tiling = "a finite patch";
-    } else if (tiling == Tiling::Mirrored) {
-        surface = mirrored(surface);
-        surface.tiling = "mirrored to a periodic tile";
-    } else if (tiling == Tiling::Periodic || says_periodic) {
-        surface.boundary = Boundary::Periodic;
-        surface.tiling = says_periodic ? "periodic as the file says" : "taken as periodic";
-    } else if (edges_fit(surface)) {
-        surface.boundary = Boundary::Periodic;
-        surface.tiling = "periodic, as its opposite edges fit";
-    } else {
-        surface = mirrored(surface);
-        surface.tiling = "mirrored to a periodic tile, as its opposite edges do not fit";
-    }
-}
-
 HeightsOptions options_of(const SurfaceSettings& settings) {
     return {settings.file_format, settings.file_channel, settings.file_decimal};
 }
 
-Heightfield load_file(const SurfaceSettings& settings, Run& run) {
-    if (settings.file.empty()) throw Error(ErrorCode::Usage, "the file name is empty", "surface");
-    return surface_of(read_topography(settings.file, options_of(settings), run), settings);
+Heightfield ready_patch(Topography topography, const SurfaceSettings& settings, const Run& run) {
+    const bool finite = settings.tiling == Tiling::Finite || settings.boundary == Boundary::Finite;
+    if (finite || settings.tiling == Tiling::Mirrored) topography.boundary = Boundary::Finite;
+    if (settings.tiling == Tiling::Periodic && !finite) topography.boundary = Boundary::Periodic;
+    Heightfield surface = prepare(std::move(topography), settings.ready, settings.file, run);
+    for (float& h : surface.heights)
+        h = static_cast<float>(static_cast<double>(h) * settings.height_scale);
+    if (settings.diagonal == Diagonal::Main) surface.diagonal = Diagonal::Main;
+    if (surface.name.empty()) surface.name = settings.file;
+    validate(surface, settings.file);
+    return surface;
 }
 
 }  // namespace
 
-Heightfield surface_of(Topography topography, const SurfaceSettings& settings) {
+Topography read_topography(const SurfaceSettings& settings, Run& run) {
+    if (settings.file.empty()) throw Error(ErrorCode::Usage, "the file name is empty", "surface");
+    Topography topography = read_topography(settings.file, options_of(settings), run);
     apply_cell_size(topography, settings);
-    Heightfield surface = prepare(std::move(topography), settings.file);
-    for (float& h : surface.heights)
-        h = static_cast<float>(static_cast<double>(h) * settings.height_scale);
-    if (settings.diagonal == Diagonal::Main) surface.diagonal = Diagonal::Main;
-
-    validate(surface, settings.file);
-    tile(surface, settings.boundary == Boundary::Finite ? Tiling::Finite : settings.tiling);
-    if (surface.name.empty()) surface.name = settings.file;
-    return surface;
+    return topography;
 }
 
 std::vector<HeightsChannel> list_channels(const SurfaceSettings& settings, Run& run) {
     return HeightsFormats().list(HeightsSource(settings.file, options_of(settings), run));
 }
 
+Heightfield load_patch(const SurfaceSettings& settings, Run& run) {
+    if (settings.kind != kSurfaceFile) return make_surface(settings, run);
+    return ready_patch(read_topography(settings, run), settings, run);
+}
+
+Heightfield tiled(Heightfield patch, const SurfaceSettings& settings) {
+    if (settings.kind != kSurfaceFile) return patch;
+    const auto say = [](Heightfield surface, const char* how) {
+        surface.tiling = how;
+        return surface;
+    };
+    if (settings.tiling == Tiling::Finite || settings.boundary == Boundary::Finite)
+        return say(std::move(patch), "a finite patch");
+    if (settings.tiling == Tiling::Mirrored)
+        return say(mirrored(patch), "mirrored to a periodic tile");
+    if (settings.tiling == Tiling::Auto && patch.boundary == Boundary::Periodic)
+        return say(std::move(patch), "periodic as the file says");
+    if (settings.tiling == Tiling::Auto && !edges_fit(patch))
+        return say(mirrored(patch),
+                   "mirrored to a periodic tile, as its opposite edges do not fit");
+    patch.boundary = Boundary::Periodic;
+    return say(std::move(patch), settings.tiling == Tiling::Periodic
+                                     ? "taken as periodic"
+                                     : "periodic, as its opposite edges fit");
+}
+
+Heightfield surface_of(Topography topography, const SurfaceSettings& settings) {
+    apply_cell_size(topography, settings);
+    return tiled(ready_patch(std::move(topography), settings, Run()), settings);
+}
+
 Heightfield load_surface(const SurfaceSettings& settings, Run& run) {
-    return settings.kind == kSurfaceFile ? load_file(settings, run) : make_surface(settings, run);
+    return tiled(load_patch(settings, run), settings);
 }
 
 }  // namespace asperity::io

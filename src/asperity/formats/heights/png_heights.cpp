@@ -74,7 +74,13 @@ class PngReader {
     std::uint64_t width() const { return png_get_image_width(png_, info_); }
     std::uint64_t height() const { return png_get_image_height(png_, info_); }
     int depth() const { return png_get_bit_depth(png_, info_); }
-    bool grey() const { return png_get_color_type(png_, info_) == PNG_COLOR_TYPE_GRAY; }
+    /// Grey, or colours, which heights take if they are all alike.
+    bool usable() const {
+        const int type = png_get_color_type(png_, info_);
+        return type == PNG_COLOR_TYPE_GRAY || type == PNG_COLOR_TYPE_RGB ||
+               type == PNG_COLOR_TYPE_RGB_ALPHA;
+    }
+    int channels() const { return png_get_channels(png_, info_); }
 
   private:
     png_structp png_;
@@ -85,15 +91,56 @@ void check_header(const PngReader& png, std::uint64_t file_bytes, const std::str
     const auto refuse = [&](std::string why) {
         throw Error(ErrorCode::InvalidInput, std::move(why), path);
     };
-    if (!png.grey()) refuse("heights need a grey PNG without colour, palette or alpha");
+    if (!png.usable())
+        refuse("heights need a grey PNG, or one whose colours are alike, without palette");
     if (png.depth() != 8 && png.depth() != 16)
         refuse(fmt::format("heights need 8 or 16 bits, not {}", png.depth()));
     check_sides(png.width(), png.height(), path);
-    const std::uint64_t bytes = png.width() * png.height() * static_cast<unsigned>(png.depth()) / 8;
+    const std::uint64_t bytes = png.width() * png.height() * static_cast<unsigned>(png.channels()) *
+                                static_cast<unsigned>(png.depth()) / 8;
     if (bytes / kMaxDeflate > file_bytes)
         refuse(fmt::format("{} x {} samples do not fit a file of {} bytes", png.width(),
                            png.height(), file_bytes));
 }
+
+// The value of a sample whose colours are all alike and whose alpha, if there is one, is full.
+class Samples {
+  public:
+    Samples(const PngReader& png, const std::vector<png_byte>& bytes, const std::string& path)
+        : deep_(png.depth() == 16),
+          channels_(static_cast<std::size_t>(png.channels())),
+          bytes_(bytes),
+          path_(path) {}
+
+    double full() const { return deep_ ? 65535.0 : 255.0; }
+    double at(std::size_t sample) const {
+        const unsigned first = number(sample * channels_);
+        for (std::size_t c = 1; c < channels_; ++c) {
+            const unsigned other = number(sample * channels_ + c);
+            const bool alpha = c == 3;
+            if (alpha ? other == static_cast<unsigned>(full()) : other == first) continue;
+            throw Error(
+                ErrorCode::InvalidInput,
+                fmt::format("{} at sample {}, heights need one channel",
+                            alpha ? "an alpha that is not full" : "the colours differ", sample),
+                path_);
+        }
+        return first;
+    }
+
+  private:
+    unsigned number(std::size_t k) const {
+        if (!deep_) return bytes_[k];
+        std::uint16_t value = 0;
+        std::memcpy(&value, bytes_.data() + 2 * k, sizeof value);
+        return value;
+    }
+
+    bool deep_;
+    std::size_t channels_;
+    const std::vector<png_byte>& bytes_;
+    const std::string& path_;
+};
 
 }  // namespace
 
@@ -109,21 +156,17 @@ Heightfield read_png_heights(const std::string& path) {
 
     // The picture in its own numbers, then as heights.
     Heightfield surface = empty_patch(png.width(), png.height(), path);
-    const std::size_t row_bytes =
-        static_cast<std::size_t>(png.width()) * static_cast<std::size_t>(png.depth() / 8);
+    const std::size_t row_bytes = static_cast<std::size_t>(png.width()) *
+                                  static_cast<std::size_t>(png.channels()) *
+                                  static_cast<std::size_t>(png.depth() / 8);
     std::vector<png_byte> pixels(row_bytes * static_cast<std::size_t>(surface.ny));
     std::vector<png_bytep> rows;
     for (std::size_t j = 0; j < static_cast<std::size_t>(surface.ny); ++j)
         rows.push_back(pixels.data() + j * row_bytes);
     if (!png.read_rows(rows.data())) fail();
-    for (std::size_t k = 0; k < surface.heights.size(); ++k) {
-        std::uint16_t value = 0;
-        if (png.depth() == 16)
-            std::memcpy(&value, pixels.data() + 2 * k, sizeof value);
-        else
-            value = pixels[k];
-        surface.heights[k] = static_cast<float>(value / (png.depth() == 16 ? 65535.0 : 255.0));
-    }
+    const Samples samples(png, pixels, path);
+    for (std::size_t k = 0; k < surface.heights.size(); ++k)
+        surface.heights[k] = static_cast<float>(samples.at(k) / samples.full());
     return surface;
 }
 

@@ -30,7 +30,7 @@ Topography read_topography(const std::string& path, const HeightsOptions& option
 
 Heightfield read_heights(const std::string& path) {
     Run run(1);
-    return prepare(read_topography(path, {}, run), path);
+    return prepare(read_topography(path, {}, run), {}, path, run);
 }
 
 void write_heights(const Heightfield& surface, const std::string& path) {

@@ -17,10 +17,18 @@ Heightfield load_surface(const SurfaceSettings& settings, Run& run);
 
 /// The same from a topography that is there already, in place of the file that the settings name.
 Heightfield surface_of(Topography topography, const SurfaceSettings& settings);
+/// The two halves of load_surface: the surface of a file as it was measured, made ready as the
+/// settings say, and what fills the plane with it. A made surface is whole after the first.
+Heightfield load_patch(const SurfaceSettings& settings, Run& run);
+Heightfield tiled(Heightfield patch, const SurfaceSettings& settings);
 
 /// Reads a topography as its file has it, by its content, else its ending, else as `options` say;
 /// HeightsFormats has the table. Nothing is filled, scaled or mirrored.
 Topography read_topography(const std::string& path, const HeightsOptions& options, Run& run);
+
+/// The same by the settings of a surface of kind kSurfaceFile, with the spacing they give. Throws
+/// Error(Usage, "surface") without a file.
+Topography read_topography(const SurfaceSettings& settings, Run& run);
 
 /// The channels of the file that the settings name, in its order.
 std::vector<HeightsChannel> list_channels(const SurfaceSettings& settings, Run& run);

@@ -94,9 +94,10 @@ void note_unread(Topography& t, const std::vector<TextLine>& lines) {
     std::size_t said = 0;
     for (const TextLine& line : lines) {
         if (line.comment && line.text.starts_with("heights:")) continue;
-        if (is_announcement(line) || ++said > 2) continue;
+        if (is_announcement(line) || line.text.empty() || ++said > 2) continue;
         t.assume(fmt::format("header line {} is not used: {}", line.number, in_quotes(line.text)));
     }
+    if (said > 2) t.assume(fmt::format("{} more header lines are not used", said - 2));
 }
 
 // The header lines that hold the names of columns or other words alone.
