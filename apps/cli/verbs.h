@@ -19,6 +19,7 @@ Verb add_surface(CLI::App& program);
 Verb add_simulate(CLI::App& program);
 Verb add_refine(CLI::App& program);
 Verb add_merge(CLI::App& program);
+Verb add_gloss(CLI::App& program);
 Verb add_info(CLI::App& program);
 Verb add_compare(CLI::App& program);
 Verb add_fit(CLI::App& program);

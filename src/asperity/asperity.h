@@ -51,6 +51,8 @@
 #include <asperity/gonio/measure.h>
 #include <asperity/gonio/measurement.h>
 #include <asperity/gonio/merge.h>
+#include <asperity/instruments/gloss_geometry.h>
+#include <asperity/instruments/glossmeter.h>
 #include <asperity/measured/albedo_by_angle.h>
 #include <asperity/measured/baked_brdf.h>
 #include <asperity/measured/compare.h>

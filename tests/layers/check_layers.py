@@ -26,6 +26,7 @@ MAY_SEE = {
     "detector": {"core"},
     "tracing": {"core", "optics", "surface", "detector"},
     "gonio": {"core", "params", "optics", "surface", "tracing", "detector"},
+    "instruments": {"core", "optics", "surface", "tracing", "gonio", "detector", "bsdf"},
     "bsdf": {"core", "params", "optics", "surface"},
     "measured": {"core", "optics", "surface", "tracing", "gonio", "bsdf", "detector"},
     "fit": {"core", "params", "optics", "surface", "gonio", "bsdf", "measured", "detector"},
