@@ -23,11 +23,14 @@ class Topography(ProgramTest):
         self.assertIn("2 points (0.0651 %) filled smoothly; the mean plane taken off, a tilt of 2", told["prepared"])
         self.assertIn("heights in nm from the header", told["source"])
         self.assertAlmostEqual(told["texture"]["Sq"], 1e-7, delta=1e-10)
-        self.assertFalse(told["texture"]["geometric_optics"]["holds"])
+        self.assertTrue(told["texture"]["geometric_optics"]["holds"])
         self.assertEqual(len(told["texture"]["autocorrelation"]["along_x"]), 33)
         text = self.passes("surface", "a.txt")
-        for figure in ("Sa, Sq", "Sal", "Sk, Spk, Svk", "Beckmann alpha", "made ready: ", "geometric optics does not"):
+        for figure in ("Sa, Sq", "Sal", "Sk, Spk, Svk", "Beckmann alpha", "made ready: ", "geometric optics holds at 0.55 um"):
             self.assertIn(figure, text)
+        # Heights of 0.1 um are none to light of 10 um
+        self.assertIn("geometric optics does not hold at 10 um: the heights are small",
+                      self.passes("surface", "a.txt", "--wavelength", "10um"))
 
     def test_what_was_done_goes_along(self):
         write_tilted("a.txt")
