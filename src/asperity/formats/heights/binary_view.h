@@ -3,6 +3,7 @@
 
 #include <asperity/core/error.h>
 #include <asperity/core/parse_number.h>
+#include <asperity/core/printable.h>
 #include <fmt/format.h>
 
 #include <bit>
@@ -68,7 +69,7 @@ class BinaryView {
     }
 
     [[noreturn]] void refuse(const std::string& why) const {
-        throw Error(ErrorCode::InvalidInput, why, path_);
+        throw Error(ErrorCode::InvalidInput, printable(why), path_);
     }
 
   private:

@@ -3,6 +3,7 @@
 
 #include <asperity/core/error.h>
 #include <asperity/core/parse_number.h>
+#include <asperity/core/printable.h>
 #include <asperity/formats/read_file.h>
 #include <fmt/format.h>
 
@@ -48,11 +49,11 @@ void HeightsSource::for_each_row(int ny, const std::function<void(int)>& row) co
 }
 
 void HeightsSource::refuse(const std::string& why) const {
-    throw Error(ErrorCode::InvalidInput, why, path_);
+    throw Error(ErrorCode::InvalidInput, printable(why), path_);
 }
 
 void HeightsSource::refuse_line(std::size_t line, const std::string& why) const {
-    throw Error(ErrorCode::InvalidInput, why, fmt::format("{}:{}", path_, line));
+    throw Error(ErrorCode::InvalidInput, printable(why), fmt::format("{}:{}", path_, line));
 }
 
 void check_sides(std::uint64_t nx, std::uint64_t ny, const std::string& path) {
