@@ -208,6 +208,9 @@ TEST(HeightsTexts, PointsOnAGrid) {
     EXPECT_EQ(t.missing_count(), 1u);
     EXPECT_EQ(t.missing[3], 1);
     EXPECT_EQ(t.dy, 2);
+    expect_error(ErrorCode::InvalidInput, "lie on no regular grid", [] {
+        read_bytes("a.txt", "0 2 1\nnan 2 2\n2 2 3\n1 0 5\n2 0 6\n", {"xyz", "", ""});
+    });
     std::string cloud;
     for (int k = 0; k < 40; ++k)
         cloud += std::to_string(std::sqrt(k)) + " " + std::to_string(std::sqrt(k * k * k)) + " 1\n";

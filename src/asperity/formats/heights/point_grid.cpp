@@ -45,6 +45,10 @@ std::size_t place_of(const PointGrid& grid, double x, double y) {
 }  // namespace
 
 std::optional<PointGrid> grid_of(const PointList& points) {
+    // A point without a place lies on no grid
+    for (const auto* axis : {&points.x, &points.y})
+        for (const double place : *axis)
+            if (!std::isfinite(place)) return std::nullopt;
     if (points.x.size() < 4) return std::nullopt;
     const auto x = axis_of(points.x);
     const auto y = axis_of(points.y);
