@@ -131,8 +131,7 @@ TEST(Gsf, RoundTripsToTheVerySameSurface) {
     }
 }
 
-// A field of Gwyddion's in metres is a measurement, which is levelled; what we write of it says so
-// and is read back as it is.
+// Gwyddion's field in metres is levelled; what we write of it says so and is read back as it is.
 TEST(Gsf, AMeasurementIsLevelledOnce) {
     const TemporaryFolder folder;
     std::string text = "Gwyddion Simple Field 1.0\nXRes = 3\nYRes = 2\nXYUnits = m\nZUnits = m\n";
@@ -144,9 +143,9 @@ TEST(Gsf, AMeasurementIsLevelledOnce) {
     EXPECT_EQ(level.prepared.find("the mean plane taken off, a tilt of "), 0u) << level.prepared;
     EXPECT_NEAR(level.heights[1], 1.0 / 3, 1e-7);
     write_heights(level, folder / "b.gsf");
-    const Heightfield back = load(settings_for(folder / "b.gsf"));
     settings.file = folder / "b.gsf";
-    EXPECT_EQ(load(settings).heights, level.heights);
+    const Heightfield back = load(settings);
+    EXPECT_EQ(back.heights, level.heights);
     EXPECT_EQ(back.prepared, level.prepared);
     EXPECT_NE(back.source.find("from the header; as Asperity wrote it"), std::string::npos)
         << back.source;
@@ -258,9 +257,7 @@ TEST(TextMatrix, RefusesWithTheLine) {
     refuse("a.txt", "1 2\n3 inf\n", ":2: 'inf' is not a number");
     refuse("a.txt", "1 2\n3 1e39\n", ":2: '1e39' is too large");
     refuse("a.txt", "1 2\n3 4x\n", ":2: '4x' is not a number");
-    refuse("a.txt", "1 2\n3 \x01\xff\n",
-           ":2: '?"
-           "?' is not a number");
+    refuse("a.txt", "1 2\n3 \x01\xff\n", ":2: '?\?' is not a number");
     refuse("a.txt", "1,,2\n", ":1: a number is missing");
     refuse("a.txt", ",1,2\n", ":1: a number is missing");
     refuse("a.txt", "1,5;2,5\n1.5;2,5\n", ":2: '1.5' has a decimal point");
