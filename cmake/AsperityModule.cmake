@@ -6,7 +6,11 @@ target_compile_features(asperity_flags INTERFACE cxx_std_20)
 target_compile_options(asperity_flags INTERFACE
     # Results must not depend on whether the compiler fuses a multiplication with an addition.
     -ffp-contract=off
-    -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Wnon-virtual-dtor -Wold-style-cast)
+    -Wall -Wextra -Wconversion -Wshadow -Wnon-virtual-dtor -Wold-style-cast)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    # Clang takes double{x} for an accident, too
+    target_compile_options(asperity_flags INTERFACE -Wdouble-promotion)
+endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # False alarms about std::string in optimised builds, GCC bug 105651.
     target_compile_options(asperity_flags INTERFACE -Wno-restrict)

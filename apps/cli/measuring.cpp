@@ -99,8 +99,13 @@ void Measuring::add_run(CLI::App& app) {
 }
 
 double Measuring::checkpoint_seconds() const {
+    constexpr double kMostSeconds = 1e6;
     const std::string text = text_of(checkpoint_, "30");
-    return text == "0" ? 0 : parse_positive("checkpoint", text);
+    const double seconds = text == "0" ? 0 : parse_positive("checkpoint", text);
+    if (seconds > kMostSeconds)
+        throw Error(ErrorCode::Usage, fmt::format("{} is not below {} seconds", text, kMostSeconds),
+                    "checkpoint");
+    return seconds;
 }
 
 void Measuring::check(const Experiment& experiment, const std::string& path) const {
@@ -113,6 +118,7 @@ void Measuring::check(const Experiment& experiment, const std::string& path) con
                                 parse_brdf_spec(reference)->channels(), checked.channels()),
                     "reference");
     if (path.empty()) {
+        if (has_output()) check_output_file(path);
         if (resume_) throw Error(ErrorCode::Usage, "needs -o FILE to go on from", "resume");
         if (checkpoint_->count() > 0)
             throw Error(ErrorCode::Usage, "needs -o FILE beside which it is kept", "checkpoint");
@@ -150,7 +156,7 @@ void Measuring::keep(const Measurement& so_far, const std::string& path) {
 }
 
 std::chrono::milliseconds Measuring::checkpoint_period() const {
-    const double seconds = checkpoint_seconds() > 0 ? std::min(checkpoint_seconds(), 1e6) : 3600;
+    const double seconds = checkpoint_seconds() > 0 ? checkpoint_seconds() : 3600;
     return std::chrono::milliseconds(std::llround(1000 * seconds));
 }
 

@@ -44,7 +44,7 @@ OPTIONS = {
     "orders": ([], []),
     "seed": ([], ["0"]),
     "threads": ([], []),
-    "checkpoint": ([], ["0", "1e308"]),
+    "checkpoint": ([], ["0"]),
 }
 
 # The same for those of files of heights.

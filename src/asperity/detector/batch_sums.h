@@ -77,7 +77,7 @@ class BatchSums {
     std::uint64_t rays = 0, segments = 0, reflections = 0, stuck = 0;
 
   private:
-    friend class LayerSums;
+    friend struct LayerSums;
     static constexpr std::size_t kBlock = 16;  ///< places
     /// A block that holds energy of an order has that bit; from the last one on they share it.
     static std::uint8_t bit_of(std::size_t order) {
