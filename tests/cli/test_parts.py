@@ -102,10 +102,17 @@ class Parts(ProgramTest):
         self.fails(2, "refine", "r.asperity", saying="refine needs --until")
 
     def test_a_checkpoint_of_other_options_is_refused(self):
-        self.killed(2, *WORK, "--jitter", "5000", "-o", "r.asperity", "--checkpoint", "0.1")
+        process = subprocess.Popen([PROGRAM, *WORK, "--jitter", "50000", "-o", "r.asperity",
+                                    "--checkpoint", "0.1"], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        end = time.monotonic() + 60
+        while not os.path.exists("r.asperity.checkpoint") and time.monotonic() < end:
+            time.sleep(0.02)
+        process.kill()
+        process.wait()
         self.assertTrue(os.path.exists("r.asperity.checkpoint"))
-        self.fails(3, *WORK, "-o", "r.asperity", "--resume", saying="jitter is 5000 there and 1500")
-        self.fails(3, *WORK, "--jitter", "5000", "--until", "1%", "-o", "r.asperity", "--resume",
+        self.fails(3, *WORK, "-o", "r.asperity", "--resume", saying="jitter is 50000 there and 1500")
+        self.fails(3, *WORK, "--jitter", "50000", "--until", "1%", "-o", "r.asperity", "--resume",
                    saying="another --until")
         self.fails(2, *WORK, "--resume", saying="needs -o FILE")
         self.fails(2, *WORK, "--part", "8/7", "-o", "r.asperity", saying="'8' is not a whole number")

@@ -28,8 +28,8 @@ TEST(SurfacePng, FlatSurfaceIsPureGreenInTheThesisLook) {
     EXPECT_EQ(png.at(500, 500), (std::vector<int>{0, 255, 0}));
 }
 
-// The tilt that was measured is a run of colours on the left; on the right all is alike but for a peak.
-// What was not measured is black.
+// The tilt that was measured is a run of colours on the left; on the right all is alike but for a
+// peak. What was not measured is black.
 TEST(SurfacePng, BeforeAndAfterStandSideBySide) {
     const test::TemporaryFolder folder;
     Topography before;

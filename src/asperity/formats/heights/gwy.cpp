@@ -206,7 +206,9 @@ std::vector<HeightsChannel> open(const HeightsSource& source) {
     const Components all = read_components(view, root);
 
     std::map<int, HeightsChannel> channels;
-    for (const auto& [name, component] : all) {
+    for (const auto& entry : all) {
+        const std::string& name = entry.first;
+        const Component& component = entry.second;
         if (component.type != 'o' || component.object != "GwyDataField") continue;
         if (!name.starts_with('/') || !name.ends_with("/data")) continue;
         const std::string id = name.substr(1, name.size() - 6);

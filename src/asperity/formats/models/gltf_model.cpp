@@ -18,7 +18,7 @@ namespace {
 
 using Json = GltfDocument::Json;
 
-constexpr std::uint64_t kTriangles = 4, kStrip = 5, kFan = 6;  // primitive modes
+constexpr std::uint64_t kTriangles = 4, kFan = 6;  // primitive modes; a strip is 5
 
 // Primitives may share indices and vertices, of which each gets its own copy: up to a point.
 constexpr std::uint64_t kFreeCorners = 1 << 22, kMostCornersAByte = 4;
