@@ -3,6 +3,7 @@
 // Every writer of the library, with each call to the operating system failing in turn: one error,
 // the old file as it was, nothing left over. This program's write(), fsync(), rename() and lseek()
 // stand in the way of the C library's.
+#include <asperity/bsdf/spec.h>
 #include <asperity/formats/bsdfs/bsdf_format.h>
 #include <asperity/formats/heights/surface_files.h>
 #include <asperity/formats/images/render_writer.h>
@@ -119,11 +120,16 @@ std::vector<Writer> writers() {
     list.push_back({"model.obj", [=](const std::string& path) { write_obj(mesh, path); }});
     list.push_back({"model.ply", [=](const std::string& path) { write_ply(mesh, path); }});
     const auto source = std::make_shared<const ExportSource>(measurement, 1);
+    // MaterialX holds the parameters of a model, and no table
+    const auto model = std::make_shared<const ExportSource>(
+        std::shared_ptr<const Bsdf>(parse_brdf_spec("ggx:alpha=0.3")),
+        asperity::test::small_experiment(), 1);
     const BsdfFormats formats;
     for (const BsdfFormat& format : formats.rows())
         if (format.write)
             list.push_back({"brdf." + format.endings.at(0), [=](const std::string& path) {
-                                format.write(*source, FormatOptions(format.options, ""), path);
+                                const auto& from = format.name == "materialx" ? model : source;
+                                format.write(*from, FormatOptions(format.options, ""), path);
                             }});
     return list;
 }

@@ -129,6 +129,8 @@ QWidget* text_control(const Param<StudioSettings>& param, const QString& label, 
 
 QWidget* control_of(const Param<StudioSettings>& param, const QString& label, Bindings& bindings,
                     Document& document) {
+    // What may be left open has a word for that
+    if (!param.info.absent.empty()) return text_control(param, label, bindings, document);
     switch (param.info.type) {
         case ParamType::Flag: {
             auto* box = new QCheckBox;
