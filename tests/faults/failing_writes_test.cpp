@@ -19,6 +19,7 @@
 #include <atomic>
 #include <cerrno>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -124,13 +125,19 @@ std::vector<Writer> writers() {
     const auto model = std::make_shared<const ExportSource>(
         std::shared_ptr<const Bsdf>(parse_brdf_spec("ggx:alpha=0.3")),
         asperity::test::small_experiment(), 1);
+    // The coarsest there is: what counts is how often a file is written to
+    const std::map<std::string, std::string> options = {{"klems", "basis=quarter"},
+                                                        {"tensortree", "levels=3"}};
     const BsdfFormats formats;
-    for (const BsdfFormat& format : formats.rows())
-        if (format.write)
-            list.push_back({"brdf." + format.endings.at(0), [=](const std::string& path) {
-                                const auto& from = format.name == "materialx" ? model : source;
-                                format.write(*from, FormatOptions(format.options, ""), path);
-                            }});
+    for (const BsdfFormat& format : formats.rows()) {
+        if (!format.write) continue;
+        const auto& from = format.name == "materialx" ? model : source;
+        const auto chosen = options.find(format.name);
+        const std::string text = chosen == options.end() ? "" : chosen->second;
+        list.push_back({format.name + "." + format.endings.at(0), [=](const std::string& path) {
+                            format.write(*from, FormatOptions(format.options, text), path);
+                        }});
+    }
     return list;
 }
 
