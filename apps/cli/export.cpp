@@ -196,13 +196,7 @@ class ExportVerb {
             {"mean_l1_format", fidelity.mean_format < 0 ? Json() : Json(fidelity.mean_format)},
             {"max_albedo_difference", fidelity.max_albedo_difference},
             {"remarks", remarks},
-            {"layers", Json::array()}};
-        for (const auto& layer : fidelity.layers)
-            json["layers"].push_back({{"theta_i_deg", degrees(layer.theta_i)},
-                                      {"phi_i_deg", degrees(layer.phi_i)},
-                                      {"l1", layer.l1},
-                                      {"noise", layer.noise},
-                                      {"albedo_difference", layer.albedo_difference}});
+            {"layers", distances_json(fidelity.layers)}};
         return json;
     }
 

@@ -119,19 +119,13 @@ Json json_of(const Fit& fit) {
                  {"mean_noise", fit.mean_noise},
                  {"max_albedo_difference", fit.max_albedo_difference},
                  {"params", Json::array()},
-                 {"layers", Json::array()}};
+                 {"layers", distances_json(fit.layers)}};
     for (const FittedParam& p : fit.params)
         json["params"].push_back({{"name", p.key},
                                   {"entry", p.entry < 0 ? Json() : Json(p.entry)},
                                   {"value", p.value},
                                   {"error", number(p.error)},
                                   {"at_end", p.at_end}});
-    for (const FitLayerMisfit& layer : fit.layers)
-        json["layers"].push_back({{"theta_i_deg", degrees(layer.theta_i)},
-                                  {"phi_i_deg", degrees(layer.phi_i)},
-                                  {"l1", layer.l1},
-                                  {"noise", layer.noise},
-                                  {"albedo_difference", layer.albedo_difference}});
     return json;
 }
 

@@ -112,11 +112,14 @@ void Measuring::check(const Experiment& experiment, const std::string& path) con
     validate(experiment);
     const Fresnel checked(experiment.optics);
     const std::string reference = text_of(reference_, "none");
-    if (reference != "none" && !can_compare(*parse_brdf_spec(reference), checked.channels()))
-        throw Error(ErrorCode::Usage,
-                    fmt::format("has {} channels, the facets have {}",
-                                parse_brdf_spec(reference)->channels(), checked.channels()),
-                    "reference");
+    if (reference != "none") {
+        const auto model = parse_brdf_spec(reference);
+        if (!can_compare(*model, checked.channels()))
+            throw Error(ErrorCode::Usage,
+                        fmt::format("has {} channels, the facets have {}", model->channels(),
+                                    checked.channels()),
+                        "reference");
+    }
     if (path.empty()) {
         if (has_output()) check_output_file(path);
         if (resume_) throw Error(ErrorCode::Usage, "needs -o FILE to go on from", "resume");
@@ -169,10 +172,13 @@ int Measuring::measure(Task task, const std::string& path) {
     const Heightfield surface = io::load_surface(task.experiment.surface, run);
     if (!task.rays_given) task.experiment.run.jitter = default_jitter(surface.cell_count());
     MeasureScope scope{std::move(task.so_far), task.part, task.parts};
-    Measurement head = head_of(surface, task.experiment, run);
-    head.part = task.part;
-    head.parts = task.parts;
-    if (auto found = left_behind(head, path, say)) scope.so_far = std::move(found);
+    // A result to be refined is where to begin without a checkpoint
+    if (resume_ && (!scope.so_far || exists(checkpoint_of(path)))) {
+        Measurement head = head_of(surface, task.experiment, run);
+        head.part = task.part;
+        head.parts = task.parts;
+        if (auto found = left_behind(head, path, say)) scope.so_far = std::move(found);
+    }
     MeasureListener listener;
     listener.begun = [&](const Measurement& begun) {
         progress.clear();
@@ -189,10 +195,13 @@ int Measuring::measure(Task task, const std::string& path) {
         asperity::measure(surface, task.experiment, run, listener, std::move(scope));
     progress.clear();
 
-    if (m.stopped && m.layers.empty())
-        throw Error(ErrorCode::Stopped, "stopped before anything was complete, nothing is written");
+    if (m.stopped && m.layers.empty()) refuse_nothing();
     finish(m, path, run.threads());
     return m.stopped ? static_cast<int>(ErrorCode::Stopped) : 0;
+}
+
+void Measuring::refuse_nothing() {
+    throw Error(ErrorCode::Stopped, "stopped before anything was complete, nothing is written");
 }
 
 void Measuring::finish(const Measurement& m, const std::string& path, int threads) const {

@@ -47,6 +47,8 @@ class Measuring {
     void keep(const Measurement& so_far, const std::string& path);
     /// No checkpoint is wanted: an hour.
     std::chrono::milliseconds checkpoint_period() const;
+    /// Throws Error(Stopped): there is nothing to write.
+    [[noreturn]] static void refuse_nothing();
     bool quiet() const { return quiet_; }
     bool json() const { return json_; }
     int threads() const { return threads_.threads(); }

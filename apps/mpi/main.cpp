@@ -55,12 +55,6 @@ int size_of(MPI_Comm ranks) {
     return size;
 }
 
-bool any(bool mine) {
-    int all = mine ? 1 : 0;
-    MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_LOR, MPI_COMM_WORLD);
-    return all != 0;
-}
-
 /// Asks a run to stop when its time is over, or when the user wants it.
 class Timer {
   public:
@@ -109,15 +103,16 @@ class SimulateOnRanks {
         const cli::StopOnSignal stop(asked);
         const Heightfield surface = io::load_surface(experiment.surface, asked);
         if (!experiment_.rays_given()) experiment.run.jitter = default_jitter(surface.cell_count());
-        require_same_surface(head_of(surface, experiment, asked).surface_digest);
+        const Measurement head = head_of(surface, experiment, asked);
+        require_same_surface(head.surface_digest);
 
         const cli::Talk say(measuring_.quiet() || !first, measuring_.json());
-        std::optional<Measurement> so_far =
-            measuring_.left_behind(head_of(surface, experiment, asked), path, say);
+        std::optional<Measurement> so_far = measuring_.left_behind(head, path, say);
         for (bool more = true; more && !any(asked.stop_requested());) {
             so_far = slice(surface, experiment, asked, std::move(so_far), more);
             if (more && first && !path.empty()) measuring_.keep(*so_far, path);
         }
+        if (!so_far || so_far->layers.empty()) cli::Measuring::refuse_nothing();
         so_far->stopped = any(asked.stop_requested());
         if (so_far->stopped) so_far->notes.emplace_back("stopped before it was complete");
         if (first) measuring_.finish(*so_far, path, asked.threads());

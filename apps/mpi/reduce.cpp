@@ -102,13 +102,13 @@ BatchSet all_done(const BatchSet& mine, MPI_Comm ranks) {
     return done;
 }
 
+}  // namespace
+
 bool any(bool mine, MPI_Comm ranks) {
     int all = mine ? 1 : 0;
     MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_LOR, ranks);
     return all != 0;
 }
-
-}  // namespace
 
 std::optional<LayerSums> sum_over_ranks(const std::optional<LayerSums>& mine, const SumShape& shape,
                                         std::uint64_t largest_batch, MPI_Comm ranks,

@@ -10,6 +10,9 @@
 
 namespace asperity::mpi {
 
+/// Whether it holds on any of the ranks. A collective call.
+bool any(bool mine, MPI_Comm ranks = MPI_COMM_WORLD);
+
 /// MPI counts in int: longer arrays are reduced in pieces of so many elements.
 inline constexpr std::size_t kPiece = std::size_t{1} << 27;
 

@@ -94,7 +94,8 @@ class Parts(ProgramTest):
     def test_a_finished_result_is_refined(self):
         at_once = self.checksum(*WORK, "--until", "0.03%,60%")
         self.passes(*WORK, "-o", "r.asperity")
-        out = self.passes("refine", "r.asperity", "--until", "0.03%,60%")
+        # Without a checkpoint --resume begins with the result
+        out = self.passes("refine", "r.asperity", "--until", "0.03%,60%", "--resume")
         self.assertIn("checksum " + at_once, out)
         self.assert_files("r.asperity")
         self.fails(2, "refine", "r.asperity", "--until", "0.1%",

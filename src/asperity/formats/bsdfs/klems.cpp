@@ -10,10 +10,8 @@
 #include <asperity/formats/bsdfs/cosine_sampled.h>
 #include <asperity/formats/bsdfs/klems_basis.h>
 #include <asperity/formats/bsdfs/window_xml.h>
-#include <asperity/formats/read_file.h>
 
 #include <fmt/format.h>
-#include <pugixml.hpp>
 
 #include <array>
 #include <cmath>
@@ -165,13 +163,8 @@ std::vector<double> numbers_of(std::string_view text, std::size_t count, const s
 }
 
 std::unique_ptr<Bsdf> read(const std::string& path) {
-    const std::string text = read_text_file(path, 256u << 20);
     pugi::xml_document document;
-    const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
-    if (!parsed)
-        throw Error(ErrorCode::InvalidInput,
-                    fmt::format("{} at byte {}", parsed.description(), parsed.offset), path);
-    const pugi::xml_node layer = document.child("WindowElement").child("Optical").child("Layer");
+    const pugi::xml_node layer = read_window_layer(path, document);
     const std::string name =
         layer.child("DataDefinition").child("AngleBasis").child_value("AngleBasisName");
     std::string kind;
@@ -183,17 +176,10 @@ std::unique_ptr<Bsdf> read(const std::string& path) {
     const std::string order = layer.child("DataDefinition").child_value("IncidentDataStructure");
     if (order != "Columns")
         throw Error(ErrorCode::InvalidInput, in_quotes(order) + " is not Columns", path);
-    for (const pugi::xml_node data : layer.children("WavelengthData")) {
-        const pugi::xml_node block = data.child("WavelengthDataBlock");
-        if (std::string_view(data.child_value("Wavelength")) != "Visible" ||
-            std::string_view(block.child_value("WavelengthDataDirection")) != "Reflection Back")
-            continue;
-        const std::size_t n = static_cast<std::size_t>(basis.patches());
-        return std::make_unique<KlemsBsdf>(
-            "file:" + std::filesystem::path(path).filename().string(), basis,
-            numbers_of(block.child_value("ScatteringData"), n * n, path));
-    }
-    throw Error(ErrorCode::InvalidInput, "has no Visible data of Reflection Back", path);
+    const std::size_t n = static_cast<std::size_t>(basis.patches());
+    return std::make_unique<KlemsBsdf>("file:" + std::filesystem::path(path).filename().string(),
+                                       basis,
+                                       numbers_of(visible_reflection(layer, path), n * n, path));
 }
 
 }  // namespace

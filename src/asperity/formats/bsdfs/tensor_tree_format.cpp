@@ -9,10 +9,8 @@
 #include <asperity/formats/bsdfs/cosine_sampled.h>
 #include <asperity/formats/bsdfs/tensor_tree.h>
 #include <asperity/formats/bsdfs/window_xml.h>
-#include <asperity/formats/read_file.h>
 
 #include <fmt/format.h>
-#include <pugixml.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -132,26 +130,15 @@ class TreeBsdf final : public CosineSampledBsdf {
 };
 
 std::unique_ptr<Bsdf> read(const std::string& path) {
-    const std::string text = read_text_file(path, 256u << 20);
     pugi::xml_document document;
-    const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
-    if (!parsed)
-        throw Error(ErrorCode::InvalidInput,
-                    fmt::format("{} at byte {}", parsed.description(), parsed.offset), path);
-    const pugi::xml_node layer = document.child("WindowElement").child("Optical").child("Layer");
+    const pugi::xml_node layer = read_window_layer(path, document);
     const std::string kind = layer.child("DataDefinition").child_value("IncidentDataStructure");
     if (kind != "TensorTree3" && kind != "TensorTree4")
         throw Error(ErrorCode::InvalidInput, "is of neither TensorTree3 nor TensorTree4", path);
     const int rank = kind.back() - '0';
-    for (const pugi::xml_node data : layer.children("WavelengthData")) {
-        const pugi::xml_node block = data.child("WavelengthDataBlock");
-        if (std::string_view(data.child_value("Wavelength")) == "Visible" &&
-            std::string_view(block.child_value("WavelengthDataDirection")) == "Reflection Back")
-            return std::make_unique<TreeBsdf>(
-                "file:" + std::filesystem::path(path).filename().string(), rank,
-                TensorTree(rank, block.child_value("ScatteringData"), path));
-    }
-    throw Error(ErrorCode::InvalidInput, "has no Visible data of Reflection Back", path);
+    return std::make_unique<TreeBsdf>("file:" + std::filesystem::path(path).filename().string(),
+                                      rank,
+                                      TensorTree(rank, visible_reflection(layer, path), path));
 }
 
 }  // namespace

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/formats/bsdfs/window_xml.h>
 
+#include <asperity/core/error.h>
+#include <asperity/formats/read_file.h>
+#include <fmt/format.h>
+
+#include <string_view>
 #include <vector>
 
 namespace asperity::io {
@@ -28,6 +33,25 @@ std::string window_opening(const ExportSource& source) {
 
 std::string window_closing() {
     return "</Layer>\n</Optical>\n</WindowElement>\n";
+}
+
+pugi::xml_node read_window_layer(const std::string& path, pugi::xml_document& document) {
+    const std::string text = read_text_file(path, 256u << 20);
+    const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
+    if (!parsed)
+        throw Error(ErrorCode::InvalidInput,
+                    fmt::format("{} at byte {}", parsed.description(), parsed.offset), path);
+    return document.child("WindowElement").child("Optical").child("Layer");
+}
+
+const char* visible_reflection(pugi::xml_node layer, const std::string& path) {
+    for (const pugi::xml_node data : layer.children("WavelengthData")) {
+        const pugi::xml_node block = data.child("WavelengthDataBlock");
+        if (std::string_view(data.child_value("Wavelength")) == "Visible" &&
+            std::string_view(block.child_value("WavelengthDataDirection")) == "Reflection Back")
+            return block.child_value("ScatteringData");
+    }
+    throw Error(ErrorCode::InvalidInput, "has no Visible data of Reflection Back", path);
 }
 
 }  // namespace asperity::io

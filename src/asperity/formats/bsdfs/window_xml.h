@@ -5,6 +5,8 @@
 
 #include <asperity/formats/bsdfs/export_source.h>
 
+#include <pugixml.hpp>
+
 #include <string>
 
 namespace asperity::io {
@@ -13,5 +15,12 @@ namespace asperity::io {
 std::string window_opening(const ExportSource& source);
 /// What closes it.
 std::string window_closing();
+
+/// The element Layer of such a file, which lives as long as `document`. Throws
+/// Error(InvalidInput, path), Error(InputOutput, path).
+pugi::xml_node read_window_layer(const std::string& path, pugi::xml_document& document);
+/// The text of its Visible data of Reflection Back. Throws Error(InvalidInput, path) if there are
+/// none.
+const char* visible_reflection(pugi::xml_node layer, const std::string& path);
 
 }  // namespace asperity::io

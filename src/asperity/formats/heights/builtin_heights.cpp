@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
+#include <utility>
 
 namespace asperity::io {
 namespace {
@@ -17,18 +19,15 @@ Topography read_floats(const std::string& path) {
 // A format whose reader gives the one surface of the file.
 template <Topography (*Read)(const std::string&)>
 std::vector<HeightsChannel> open(const HeightsSource& source) {
-    const auto t = std::make_shared<Topography>(Read(source.path()));
-    if (t->ours)
-        t->note("as Asperity wrote it");
-    else if (t->unit == "cell" && t->dx == 1 && t->dy == 1)
-        t->assume("no scale in the file: spacing 1 cell, heights in cells");
+    Topography t = Read(source.path());
+    if (t.ours)
+        t.note("as Asperity wrote it");
+    else if (t.unit == "cell" && t.dx == 1 && t.dy == 1)
+        t.assume("no scale in the file: spacing 1 cell, heights in cells");
     else
-        t->note(t->unit == "m" ? "heights and spacing of " + length_text(t->dx) + " from the header"
-                               : fmt::format("spacing {:.6g} from the header, no unit", t->dx));
-    return {
-        {"heights", static_cast<std::uint64_t>(t->nx), static_cast<std::uint64_t>(t->ny), {}, [t] {
-             return *t;
-         }}};
+        t.note(t.unit == "m" ? "heights and spacing of " + length_text(t.dx) + " from the header"
+                             : fmt::format("spacing {:.6g} from the header, no unit", t.dx));
+    return one_surface(std::move(t));
 }
 
 bool starts_with_gsf(std::string_view head) {
@@ -44,6 +43,14 @@ bool starts_with_png(std::string_view head) {
 }
 
 }  // namespace
+
+std::vector<HeightsChannel> one_surface(Topography topography) {
+    const auto t = std::make_shared<const Topography>(std::move(topography));
+    return {
+        {"heights", static_cast<std::uint64_t>(t->nx), static_cast<std::uint64_t>(t->ny), {}, [t] {
+             return *t;
+         }}};
+}
 
 Topography as_topography(const Heightfield& surface) {
     Topography t;

@@ -27,6 +27,14 @@ HeightsFormat tmd_format();
 HeightsFormat x3p_format();
 HeightsFormat xyz_format();
 
+/// HeightsFormat::open of a file that holds one surface and was read whole.
+std::vector<HeightsChannel> one_surface(Topography topography);
+/// The same for a reader of such files.
+template <Topography (*Read)(const HeightsSource&)>
+std::vector<HeightsChannel> open_one(const HeightsSource& source) {
+    return one_surface(Read(source));
+}
+
 /// The samples of a format that knows 32-bit floats; NaN is a missing point.
 Topography as_topography(const Heightfield& surface);
 

@@ -136,15 +136,6 @@ Topography read_spip(const HeightsSource& source) {
     return t;
 }
 
-template <Topography (*Read)(const HeightsSource&)>
-std::vector<HeightsChannel> open(const HeightsSource& source) {
-    const auto t = std::make_shared<Topography>(Read(source));
-    return {
-        {"heights", static_cast<std::uint64_t>(t->nx), static_cast<std::uint64_t>(t->ny), {}, [t] {
-             return *t;
-         }}};
-}
-
 }  // namespace
 
 HeightsFormat esri_format() {
@@ -152,13 +143,17 @@ HeightsFormat esri_format() {
             {},
             "ESRI grid .asc: ncols, nrows, cellsize, NODATA_value",
             recognises_esri,
-            open<read_esri>,
+            open_one<read_esri>,
             nullptr};
 }
 
 HeightsFormat spip_format() {
-    return {"spip",          {},     "SPIP .asc: pixels, lengths in nm, Bit2nm", recognises_spip,
-            open<read_spip>, nullptr};
+    return {"spip",
+            {},
+            "SPIP .asc: pixels, lengths in nm, Bit2nm",
+            recognises_spip,
+            open_one<read_spip>,
+            nullptr};
 }
 
 }  // namespace asperity::io

@@ -86,4 +86,10 @@ void set_spacing(Topography& topography, double dx, double dy, const std::string
     topography.note("spacing " + length_text(dx) + (dx == dy ? "" : " x " + length_text(dy)));
 }
 
+void set_heights_alone(Topography& topography, const std::string& heights_in) {
+    topography.unit = "m";
+    topography.dx = topography.dy = 0;
+    topography.note("heights in " + heights_in);
+}
+
 }  // namespace asperity::io

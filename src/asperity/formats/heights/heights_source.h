@@ -67,5 +67,7 @@ void check_sides(std::uint64_t nx, std::uint64_t ny, const std::string& path);
 /// um". Throws Error(InvalidInput, path) for a spacing that is no positive length.
 void set_spacing(Topography& topography, double dx_metres, double dy_metres,
                  const std::string& heights_in, const std::string& path);
+/// The same for a file that says in what the heights are, but not how far apart.
+void set_heights_alone(Topography& topography, const std::string& heights_in);
 
 }  // namespace asperity::io

@@ -35,9 +35,7 @@ Topography read(const HeightsSource& source, std::uint64_t at) {
     if (step > 0) {
         set_spacing(t, step, step, unit, source.path());
     } else {
-        t.unit = "m";
-        t.dx = t.dy = 0;
-        t.note("heights in " + unit);
+        set_heights_alone(t, unit);
     }
     t.note("first row on top");
     return t;

@@ -113,9 +113,7 @@ Topography read(const HeightsSource& source, const Block& block) {
         set_spacing(t, scale.pixel_mm * 1e-3, scale.pixel_mm * scale.aspect * 1e-3, unit,
                     source.path());
     } else {
-        t.unit = "m";
-        t.dx = t.dy = 0;
-        t.note("heights in " + unit);
+        set_heights_alone(t, unit);
     }
     t.note("columns from the bottom up");
     return t;

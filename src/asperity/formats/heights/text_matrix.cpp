@@ -80,9 +80,7 @@ void apply_scale(Topography& t, const TextScale& scale, const HeightsSource& sou
         if (dx > 0) {
             set_spacing(t, dx, dy, scale.z_text + " from the header", source.path());
         } else {
-            t.unit = "m";
-            t.dx = t.dy = 0;
-            t.note("heights in " + scale.z_text + " from the header");
+            set_heights_alone(t, scale.z_text + " from the header");
         }
         return;
     }
@@ -187,15 +185,6 @@ Topography read_xyz(const HeightsSource& source) {
     return point_surface(table, points, *grid, source);
 }
 
-template <Topography (*Read)(const HeightsSource&)>
-std::vector<HeightsChannel> open(const HeightsSource& source) {
-    const auto t = std::make_shared<Topography>(Read(source));
-    return {
-        {"heights", static_cast<std::uint64_t>(t->nx), static_cast<std::uint64_t>(t->ny), {}, [t] {
-             return *t;
-         }}};
-}
-
 }  // namespace
 
 void write_text_matrix(const Heightfield& surface, const std::string& path) {
@@ -219,19 +208,22 @@ HeightsFormat text_format() {
             {"txt", "csv", "asc", "dat", "xyz"},
             "rows of numbers, with a header that says the scale or none; points x y z on a grid",
             nullptr,
-            open<read_text>,
+            open_one<read_text>,
             write_text_matrix};
 }
 
 HeightsFormat matrix_format() {
-    return {"matrix",          {},     "rows of numbers whatever a header says", nullptr,
-            open<read_matrix>, nullptr};
+    return {"matrix", {}, "rows of numbers whatever a header says", nullptr, open_one<read_matrix>,
+            nullptr};
 }
 
 HeightsFormat xyz_format() {
-    return {
-        "xyz",          {},     "points x y z on a regular grid, in any order, with gaps", nullptr,
-        open<read_xyz>, nullptr};
+    return {"xyz",
+            {},
+            "points x y z on a regular grid, in any order, with gaps",
+            nullptr,
+            open_one<read_xyz>,
+            nullptr};
 }
 
 }  // namespace asperity::io
