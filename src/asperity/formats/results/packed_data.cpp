@@ -7,8 +7,10 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <memory>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 namespace asperity::io {
 
@@ -27,22 +29,50 @@ std::uint64_t content_of(std::size_t k, std::uint64_t bytes) {
     return std::min(kFrameBytes, bytes - k * kFrameBytes);
 }
 
-/// Copies bytes of the parts, taken as one, from `begin` on.
-void gather(std::span<const std::span<const std::byte>> parts, std::uint64_t begin,
-            std::span<std::byte> content) {
+/// Bytes of the parts, taken as one, from `begin` on: where they stand if that is one place, else
+/// copied to `copy`.
+std::span<const std::byte> gather(std::span<const std::span<const std::byte>> parts,
+                                  std::uint64_t begin, std::size_t count,
+                                  std::vector<std::byte>& copy) {
+    copy.clear();
     for (const auto part : parts) {
-        if (content.empty()) return;
         if (begin >= part.size()) {
             begin -= part.size();
             continue;
         }
-        const std::size_t count =
-            std::min(content.size(), part.size() - static_cast<std::size_t>(begin));
-        std::copy_n(part.begin() + static_cast<std::ptrdiff_t>(begin), count, content.begin());
-        content = content.subspan(count);
+        const auto here = part.subspan(static_cast<std::size_t>(begin));
+        if (copy.empty() && here.size() >= count) return here.first(count);
+        const auto taken = here.first(std::min(count - copy.size(), here.size()));
+        copy.insert(copy.end(), taken.begin(), taken.end());
+        if (copy.size() == count) break;
         begin = 0;
     }
+    return copy;
 }
+
+/// What a thread packs with, frame after frame.
+class Packer {
+  public:
+    std::vector<std::byte> pack(std::span<const std::byte> content) {
+        frame_.resize(ZSTD_compressBound(kFrameBytes));
+        const std::size_t size = ZSTD_compressCCtx(context_.get(), frame_.data(), frame_.size(),
+                                                   content.data(), content.size(), kLevel);
+        if (ZSTD_isError(size)) throw std::bad_alloc();
+        return {frame_.begin(), frame_.begin() + static_cast<std::ptrdiff_t>(size)};
+    }
+    std::vector<std::byte> copy;  ///< for gather()
+
+  private:
+    struct Free {
+        void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
+    };
+    static ZSTD_CCtx* make() {
+        if (ZSTD_CCtx* context = ZSTD_createCCtx()) return context;
+        throw std::bad_alloc();
+    }
+    std::unique_ptr<ZSTD_CCtx, Free> context_{make()};
+    std::vector<std::byte> frame_;
+};
 
 [[noreturn]] void fail(std::size_t k, const char* why) {
     throw std::runtime_error(fmt::format("frame {} {}", k, why));
@@ -55,15 +85,13 @@ std::vector<std::byte> pack(std::span<const std::span<const std::byte>> parts) {
     for (const auto part : parts) bytes += part.size();
     if (bytes < kLeastBytes) return {};
     std::vector<std::vector<std::byte>> frames(frames_of(bytes));
-    parallel_for(frames.size(), Run().threads(), [&](std::size_t k) {
-        std::vector<std::byte> content(static_cast<std::size_t>(content_of(k, bytes)));
-        gather(parts, k * kFrameBytes, content);
-        std::vector<std::byte>& frame = frames[k];
-        frame.resize(ZSTD_compressBound(content.size()));
-        const std::size_t size =
-            ZSTD_compress(frame.data(), frame.size(), content.data(), content.size(), kLevel);
-        if (ZSTD_isError(size)) throw std::bad_alloc();
-        frame.resize(size);
+    const auto threads = static_cast<std::size_t>(Run().threads());
+    parallel_for(threads, Run().threads(), [&](std::size_t thread) {
+        Packer packer;
+        for (std::size_t k = thread; k < frames.size(); k += threads)
+            frames[k] =
+                packer.pack(gather(parts, k * kFrameBytes,
+                                   static_cast<std::size_t>(content_of(k, bytes)), packer.copy));
     });
     std::vector<std::byte> all;
     for (const auto& frame : frames) all.insert(all.end(), frame.begin(), frame.end());
