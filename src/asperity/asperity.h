@@ -73,6 +73,17 @@
 #include <asperity/pictures/layer_view.h>
 #include <asperity/pictures/pictures.h>
 #include <asperity/pictures/residual_sheet.h>
+#include <asperity/plots/canvas.h>
+#include <asperity/plots/curves_of.h>
+#include <asperity/plots/files/write_plot.h>
+#include <asperity/plots/plot.h>
+#include <asperity/plots/plot_axis.h>
+#include <asperity/plots/plot_curves.h>
+#include <asperity/plots/plot_disc.h>
+#include <asperity/plots/plot_frame.h>
+#include <asperity/plots/plot_hemisphere.h>
+#include <asperity/plots/plot_polar.h>
+#include <asperity/plots/plot_style.h>
 #include <asperity/render/builtin_models.h>
 #include <asperity/render/camera.h>
 #include <asperity/render/camera_controller.h>

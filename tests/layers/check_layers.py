@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads the #include lines of a source tree and fails on one that runs against the data.
 
-    core <- params <- optics, surface, detector <- tracing <- gonio <- measured <- formats, pictures <- apps
+    core <- params <- optics, surface, detector <- tracing <- gonio <- measured <- formats, pictures <- plots <- apps
     core <- optics, surface <- bsdf <- measured, render; measured <- fit
 
 A room of src/asperity, a folder or the folder of a kind of format, includes only itself and what
@@ -40,6 +40,8 @@ MAY_SEE = {
     "formats/bsdfs": {"core", "gonio", "bsdf", "measured", "formats", "formats/exr",
                       "formats/results", "detector"},
     "pictures": {"core", "surface", "tracing", "gonio", "bsdf", "measured", "render", "formats", "detector"},
+    "plots": {"core", "params", "optics", "surface", "gonio", "bsdf", "measured", "pictures", "detector"},
+    "plots/files": {"core", "formats", "plots"},
 }
 
 # First folder, or the whole name, of the headers that apps must leave to the library.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plot_canvas.h"
 
-#include "plot_curves.h"
+#include "qt_canvas.h"
+
+#include <asperity/plots/plot_curves.h>
 
 #include <QKeyEvent>
 #include <QMouseEvent>
@@ -10,7 +12,8 @@
 
 namespace asperity::studio {
 
-PlotCanvas::PlotCanvas(QWidget* parent) : QWidget(parent), painted_style_(palette(), font()) {
+PlotCanvas::PlotCanvas(QWidget* parent)
+    : QWidget(parent), painted_style_(style_of(palette(), font())) {
     setObjectName("plot-canvas");
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
@@ -20,7 +23,7 @@ PlotCanvas::PlotCanvas(QWidget* parent) : QWidget(parent), painted_style_(palett
     setAccessibleName(tr("Plot"));
 }
 
-void PlotCanvas::set_plot(std::shared_ptr<const Plot> plot) {
+void PlotCanvas::set_plot(std::shared_ptr<const plots::Plot> plot) {
     plot_ = std::move(plot);
     painted_ = {};
     look_at(place_);
@@ -34,12 +37,12 @@ QSize PlotCanvas::minimumSizeHint() const {
     return {fontMetrics().height() * 14, fontMetrics().height() * 11};
 }
 
-PlotStyle PlotCanvas::style_now() const {
-    return {palette(), font()};
+plots::PlotStyle PlotCanvas::style_now() const {
+    return style_of(palette(), font());
 }
 
 void PlotCanvas::paintEvent(QPaintEvent*) {
-    const PlotStyle style = style_now();
+    const plots::PlotStyle style = style_now();
     const double ratio = devicePixelRatioF();
     const QSize wanted = size() * ratio;
     const bool same_look = style.paper == painted_style_.paper &&
@@ -47,18 +50,19 @@ void PlotCanvas::paintEvent(QPaintEvent*) {
     if (painted_.size() != wanted || !same_look) {
         painted_ = QPixmap(wanted);
         painted_.setDevicePixelRatio(ratio);
-        painted_.fill(style.paper);
+        painted_.fill(to_qt(style.paper));
         painted_style_ = style;
         QPainter painter(&painted_);
-        if (plot_) plot_->paint(painter, rect(), style);
+        QtCanvas canvas(painter, font());
+        if (plot_) plot_->paint(canvas, from_qt(QRectF(rect())), style);
     }
     QPainter painter(this);
     painter.drawPixmap(0, 0, painted_);
     if (!reading_) return;
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(QPen(style.faint, 1, Qt::DotLine));
-    if (!reading_->guide.isNull()) painter.drawLine(reading_->guide);
-    for (const auto& [place, ink] : reading_->dots) paint_dot(painter, style, place, ink);
+    QtCanvas canvas(painter, font());
+    if (reading_->guide)
+        canvas.line(reading_->guide->first, reading_->guide->second, {style.faint, 1, {1, 2}});
+    for (const auto& [place, ink] : reading_->dots) plots::paint_dot(canvas, style, place, ink);
 }
 
 void PlotCanvas::mouseMoveEvent(QMouseEvent* event) {
@@ -108,8 +112,9 @@ void PlotCanvas::keyPressEvent(QKeyEvent* event) {
 void PlotCanvas::look_at(std::optional<QPointF> place) {
     place_ = place;
     reading_.reset();
-    if (place && plot_) reading_ = plot_->reading(*place, rect(), style_now());
-    emit read(reading_ ? reading_->text : QString());
+    if (place && plot_)
+        reading_ = plot_->reading(from_qt(*place), from_qt(QRectF(rect())), style_now());
+    emit read(reading_ ? QString::fromStdString(reading_->text) : QString());
     update();
 }
 
@@ -117,12 +122,14 @@ void PlotCanvas::choose() {
     if (reading_ && reading_->cell) emit cell_chosen(*reading_->cell);
 }
 
-QImage plot_image(const Plot& plot, QSize size, double scale, const PlotStyle& style) {
+QImage plot_image(const plots::Plot& plot, QSize size, double scale, const plots::PlotStyle& style,
+                  const QFont& font) {
     QImage image(size * scale, QImage::Format_RGB32);
     image.setDevicePixelRatio(scale);
-    image.fill(style.paper);
+    image.fill(to_qt(style.paper));
     QPainter painter(&image);
-    plot.paint(painter, QRectF(QPointF(), QSizeF(size)), style);
+    QtCanvas canvas(painter, font);
+    plot.paint(canvas, from_qt(QRectF(QPointF(), QSizeF(size))), style);
     return image;
 }
 

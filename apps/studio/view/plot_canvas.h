@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plot.h"
+#include <asperity/plots/plot.h>
 
+#include <QImage>
 #include <QPixmap>
 #include <QWidget>
 
@@ -17,7 +18,7 @@ class PlotCanvas : public QWidget {
   public:
     explicit PlotCanvas(QWidget* parent = nullptr);
 
-    void set_plot(std::shared_ptr<const Plot> plot);
+    void set_plot(std::shared_ptr<const plots::Plot> plot);
     QSize sizeHint() const override;
     QSize minimumSizeHint() const override;
 
@@ -33,18 +34,20 @@ class PlotCanvas : public QWidget {
     void keyPressEvent(QKeyEvent* event) override;
 
   private:
-    PlotStyle style_now() const;
+    plots::PlotStyle style_now() const;
     void look_at(std::optional<QPointF> place);
     void choose();
 
-    std::shared_ptr<const Plot> plot_;
+    std::shared_ptr<const plots::Plot> plot_;
     QPixmap painted_;  ///< the plot without the cross hair; null: to be painted anew
-    PlotStyle painted_style_;
+    plots::PlotStyle painted_style_;
     std::optional<QPointF> place_;
-    std::optional<PlotReading> reading_;
+    std::optional<plots::PlotReading> reading_;
 };
 
-/// The plot as a picture of `size` pixels, each `scale` times as fine as the style's.
-QImage plot_image(const Plot& plot, QSize size, double scale, const PlotStyle& style);
+/// The plot as a picture of `size` pixels, each `scale` times as fine as the style's, which is
+/// style_of(..., font).
+QImage plot_image(const plots::Plot& plot, QSize size, double scale, const plots::PlotStyle& style,
+                  const QFont& font);
 
 }  // namespace asperity::studio

@@ -90,7 +90,7 @@ QLayout* PlotControls::make_buttons() {
     auto* copy = make_button<QToolButton>(
         tr("Copy Picture"), tr("Puts the plot on the clipboard, black on white for print"));
     auto* save = make_button<QToolButton>(
-        tr("Save Plot"), tr("As a picture (PNG), a drawing (SVG), both black on white for print, "
+        tr("Save Plot"), tr("As a picture (PNG) or a drawing (SVG, PDF), black on white for print, "
                             "or as numbers (CSV)"));
     connect(copy, &QToolButton::clicked, this, &PlotControls::copy_wanted);
     connect(save, &QToolButton::clicked, this, &PlotControls::save_wanted);

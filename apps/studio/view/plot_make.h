@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plot.h"
-#include "plot_disc.h"
 #include "plot_models.h"
 
 #include "../model/drawing.h"
+
+#include <asperity/plots/plot.h>
+#include <asperity/plots/plot_disc.h>
 
 #include <memory>
 #include <optional>
@@ -21,7 +22,7 @@ struct PlotSource {
     std::optional<int> cell;
     std::shared_ptr<const Heightfield> surface;
     std::optional<double> surface_alpha;
-    std::shared_ptr<DiscPainter> disc_painter;
+    std::shared_ptr<plots::DiscPainter> disc_painter;
 };
 
 /// The curves of models that the plot shows; none when there is nothing to compare with yet.
@@ -29,6 +30,6 @@ std::optional<ModelWish> models_for(const PlotSource& source);
 
 /// The plot of the source's kind; `models`, if not null, are of its scene. Where there is nothing
 /// to show, the plot says so.
-std::shared_ptr<const Plot> make_plot(const PlotSource& source, const ModelValues* models);
+std::shared_ptr<const plots::Plot> make_plot(const PlotSource& source, const ModelValues* models);
 
 }  // namespace asperity::studio

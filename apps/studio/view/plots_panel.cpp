@@ -4,13 +4,15 @@
 #include "file_questions.h"
 #include "plot_canvas.h"
 #include "plot_controls.h"
-#include "plot_files.h"
+#include "qt_canvas.h"
 
 #include <asperity/core/error.h>
+#include <asperity/plots/files/write_plot.h>
 
 #include <QApplication>
 #include <QClipboard>
 #include <QElapsedTimer>
+#include <QFontInfo>
 #include <QMessageBox>
 #include <QVBoxLayout>
 
@@ -92,7 +94,7 @@ PlotSource PlotsPanel::source() const {
     return source;
 }
 
-std::shared_ptr<const Plot> PlotsPanel::plot() const {
+std::shared_ptr<const plots::Plot> PlotsPanel::plot() const {
     const PlotSource source = this->source();
     const auto wish = models_for(source);
     return make_plot(source, wish ? models_.find(*wish) : nullptr);
@@ -115,21 +117,31 @@ QSize PlotsPanel::shown_size() const {
 }
 
 QImage PlotsPanel::picture(QSize size) const {
-    return plot_image(*plot(), size, 1, PlotStyle(canvas_->palette(), canvas_->font()));
+    return plot_image(*plot(), size, 1, style_of(canvas_->palette(), canvas_->font()),
+                      canvas_->font());
 }
 
 void PlotsPanel::copy_picture() const {
     constexpr double kPixelsToOne = 2;
-    QApplication::clipboard()->setImage(
-        plot_image(*plot(), shown_size(), kPixelsToOne, PlotStyle(canvas_->font())));
+    QPalette print;
+    print.setColor(QPalette::Base, Qt::white);
+    print.setColor(QPalette::Text, QColor(0x11, 0x11, 0x11));
+    QApplication::clipboard()->setImage(plot_image(
+        *plot(), shown_size(), kPixelsToOne, style_of(print, canvas_->font()), canvas_->font()));
 }
 
 void PlotsPanel::save(const QString& path) const {
-    write_plot(*plot(), shown_size(), PlotStyle(canvas_->font()), path);
+    plots::PlotFileSettings settings;
+    settings.width = shown_size().width();
+    settings.height = shown_size().height();
+    settings.font_size = QFontInfo(canvas_->font()).pixelSize();
+    plots::write_plot(*plot(), settings, path.toStdString());
 }
 
 void PlotsPanel::ask_and_save() {
-    ask_file_to_save(this, tr("Save Plot"), tr("Picture (*.png);;Drawing (*.svg);;Numbers (*.csv)"),
+    ask_file_to_save(this, tr("Save Plot"),
+                     tr("Picture (*.png);;Drawing (*.svg);;Drawing for print (*.pdf);;"
+                        "Numbers (*.csv)"),
                      "png", [this](const QString& path) {
                          try {
                              save(path);

@@ -26,8 +26,8 @@ class PlotsPanel : public QWidget {
     QImage picture(QSize size) const;
     /// Black on white, for print.
     void copy_picture() const;
-    /// By the ending of its name: .png, .svg or .csv; pictures black on white, as large as shown.
-    /// Throws Error(Usage | InputOutput).
+    /// By the ending of its name: .png, .svg, .pdf or .csv; pictures black on white, as large as
+    /// shown. Throws Error(Usage | InputOutput).
     void save(const QString& path) const;
 
   protected:
@@ -39,7 +39,7 @@ class PlotsPanel : public QWidget {
     void refresh();
     void ask_and_save();
     PlotSource source() const;
-    std::shared_ptr<const Plot> plot() const;
+    std::shared_ptr<const plots::Plot> plot() const;
     QSize shown_size() const;
 
     Workbench& workbench_;
@@ -47,7 +47,7 @@ class PlotsPanel : public QWidget {
     PlotCanvas* canvas_;
     QLabel* read_out_;
     ModelCurves models_;
-    std::shared_ptr<DiscPainter> disc_painter_ = std::make_shared<DiscPainter>();
+    std::shared_ptr<plots::DiscPainter> disc_painter_ = std::make_shared<plots::DiscPainter>();
     QTimer timer_;  ///< until the next plot may be made
 };
 

@@ -17,13 +17,16 @@ struct ColumnShare {
     double weight = 0;  ///< share of the column that lies in the strip
 };
 
-/// The columns of `row` in the strip about the half-plane of azimuth `phi`.
-std::vector<ColumnShare> columns_in_strip(const Detector& detector, int row, double phi) {
+/// The columns of `row` in the strip about the half-plane of azimuth `phi`, `wide` columns to
+/// either side at the horizon.
+std::vector<ColumnShare> columns_in_strip(const Detector& detector, int row, double phi,
+                                          double wide) {
     constexpr double kNothing = 1e-9;
     const int count = detector.columns();
     const double width = 2 * kPi / count;
     // A quarter turn to either side at most: beyond lies the other side of the normal.
-    const double half = std::min(kPi / 2, width / std::sin(detector.theta_centre(row))) / width;
+    const double half =
+        std::min(kPi / 2, wide * width / std::sin(detector.theta_centre(row))) / width;
     const double first = phi / width - half, last = phi / width + half;
     std::vector<ColumnShare> columns;
     for (int k = static_cast<int>(std::floor(first)); k < last; ++k) {
@@ -40,15 +43,16 @@ struct CellEnergy {
 
 /// The slice of whatever energy_of(row, column) gives.
 template <class EnergyOf>
-LobeSlice slice_of(const Detector& detector, const Layer& layer, const EnergyOf& energy_of) {
+LobeSlice slice_of(const Detector& detector, const Layer& layer, const LobeCut& cut,
+                   const EnergyOf& energy_of) {
     const int rows = detector.rows();
     LobeSlice slice{layer.theta_i, layer.phi_i, {}};
     for (int k = 0; k < 2 * rows; ++k) {
         const bool light_side = k < rows;
         const int row = light_side ? rows - 1 - k : k - rows;
-        const double phi = layer.phi_i + (light_side ? 0 : kPi);
+        const double phi = layer.phi_i + cut.azimuth + (light_side ? 0 : kPi);
         double energy = 0, variance = 0, weights = 0;
-        for (const auto& [column, weight] : columns_in_strip(detector, row, phi)) {
+        for (const auto& [column, weight] : columns_in_strip(detector, row, phi, cut.columns)) {
             const CellEnergy cell = energy_of(row, column);
             energy += weight * cell.value;
             variance += weight * weight * cell.error * cell.error;
@@ -67,12 +71,13 @@ LobeSlice slice_of(const Detector& detector, const Layer& layer, const EnergyOf&
 
 }  // namespace
 
-LobeSlice lobe_slice(const Measurement& measurement, const Layer& layer, int channel) {
+LobeSlice lobe_slice(const Measurement& measurement, const Layer& layer, int channel,
+                     const LobeCut& cut) {
     const Detector& detector = measurement.detector;
     const auto [first, last] = detail::channel_range(channel, measurement.channels());
     const std::size_t cells = static_cast<std::size_t>(detector.cells());
     return slice_of(
-        detector, layer, [&, first = first, last = last](int row, int column) -> CellEnergy {
+        detector, layer, cut, [&, first = first, last = last](int row, int column) -> CellEnergy {
             const int cell = row * detector.columns() + column;
             CellEnergy sum;
             for (int c = first; c < last; ++c) {
@@ -86,11 +91,11 @@ LobeSlice lobe_slice(const Measurement& measurement, const Layer& layer, int cha
 }
 
 LobeSlice lobe_slice(const Bsdf& brdf, const Measurement& measurement, const Layer& layer,
-                     int channel) {
+                     int channel, const LobeCut& cut) {
     const auto [first, last] = detail::channel_range(channel, brdf.channels());
     const detail::CellIntegrator integrator(brdf, measurement.detector, layer.theta_i, layer.phi_i,
                                             measurement.experiment.illumination.isotropic);
-    return slice_of(measurement.detector, layer,
+    return slice_of(measurement.detector, layer, cut,
                     [&, first = first, last = last](int row, int column) -> CellEnergy {
                         const detail::Channels energy = integrator.integrate(row, column);
                         double sum = 0;

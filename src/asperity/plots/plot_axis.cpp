@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plot_axis.h"
+#include <asperity/plots/plot_axis.h>
+
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
-namespace asperity::studio {
+namespace asperity::plots {
 
 namespace {
 
@@ -20,26 +24,42 @@ double round_up_to_125(double value) {
     return 10 * decade;
 }
 
-QString superscript(int number) {
-    static const QString digits = QStringLiteral("⁰¹²³⁴⁵⁶⁷⁸⁹");
-    QString text = number < 0 ? QStringLiteral("⁻") : QString();
-    for (const QChar digit : QString::number(std::abs(number))) text += digits[digit.digitValue()];
+std::string superscript(int number) {
+    constexpr std::array kDigits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    std::string text = number < 0 ? "⁻" : "";
+    for (const char digit : std::to_string(std::abs(number)))
+        text += kDigits[static_cast<std::size_t>(digit - '0')];
     return text;
 }
 
-QString power_of_ten(int exponent) {
-    return QStringLiteral("10") + superscript(exponent);
+std::string power_of_ten(int exponent) {
+    return "10" + superscript(exponent);
 }
 
-QString rounded(double value, int digits) {
-    if (!std::isfinite(value)) return QStringLiteral("∞");
+/// With a minus sign in place of the hyphen.
+std::string with_minus(const std::string& number) {
+    std::string text;
+    for (const char c : number) text += c == '-' ? std::string("−") : std::string(1, c);
+    return text;
+}
+
+std::string rounded(double value, int digits) {
+    if (!std::isfinite(value)) return "∞";
     const double size = std::abs(value);
     if (size > 0 && (size < 1e-3 || size >= 1e5)) {
         const int exponent = static_cast<int>(std::floor(std::log10(size)));
-        return QString::number(value / std::pow(10.0, exponent), 'f', digits - 1) +
-               QStringLiteral("×") + power_of_ten(exponent);
+        return with_minus(fmt::format("{:.{}f}", value / std::pow(10.0, exponent), digits - 1)) +
+               "×" + power_of_ten(exponent);
     }
-    return QString::number(value, 'g', digits).replace('-', QChar(0x2212));
+    return with_minus(fmt::format("{:.{}g}", value, digits));
+}
+
+/// Parts that the step between labels is cut into by short marks: at round numbers.
+int parts_of(double step) {
+    const double lead = step / std::pow(10.0, std::floor(std::log10(step) + kSlack));
+    for (const double of_three : {1.5, 3.0, 4.5, 9.0})
+        if (std::abs(lead - of_three) < kSlack) return 3;
+    return std::abs(lead - 2) < kSlack ? 4 : 5;
 }
 
 std::vector<PlotTick> linear_ticks(const PlotAxis& axis, int count) {
@@ -47,8 +67,13 @@ std::vector<PlotTick> linear_ticks(const PlotAxis& axis, int count) {
         axis.step > 0 ? axis.step : round_up_to_125((axis.high - axis.low) / std::max(1, count));
     std::vector<PlotTick> ticks;
     const double first = std::ceil(axis.low / step - kSlack);
-    for (double k = first; k * step <= axis.high + kSlack * step; ++k)
-        ticks.push_back({k * step, number_label(k * step, step)});
+    const int parts = parts_of(step);
+    for (double k = first - 1; k * step <= axis.high + kSlack * step; ++k)
+        for (int part = 0; part < parts; ++part) {
+            const double value = (k + static_cast<double>(part) / parts) * step;
+            if (value < axis.low - kSlack * step || value > axis.high + kSlack * step) continue;
+            ticks.push_back({value, part == 0 ? number_label(value, step) : std::string()});
+        }
     return ticks;
 }
 
@@ -97,26 +122,31 @@ PlotAxis axis_up_to(double top, bool log, double decades) {
     return {{}, 0, step * std::ceil(end / step - kSlack), false, 0};
 }
 
-QString number_label(double value, double step) {
-    if (std::abs(value) < kSlack * step) return QStringLiteral("0");
+PlotAxis axis_between(double low, double high) {
+    if (!(high > low)) return {{}, low - 1, low + 1, false, 0};
+    const double step = round_up_to_125((high - low) / 10);
+    return {{}, step * std::floor(low / step + kSlack), step * std::ceil(high / step - kSlack)};
+}
+
+std::string number_label(double value, double step) {
+    if (std::abs(value) < kSlack * step) return "0";
     const int digit = static_cast<int>(std::floor(std::log10(step) + kSlack));
     if (digit < -3 || digit > 4) {
         const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value)) + kSlack));
         const double mantissa = value / std::pow(10.0, exponent);
         const int decimals = std::max(0, exponent - digit);
-        return QString::number(mantissa, 'f', decimals) + QStringLiteral("×") +
+        return with_minus(fmt::format("{:.{}f}", mantissa, decimals)) + "×" +
                power_of_ten(exponent);
     }
-    QString text = QString::number(value, 'f', std::max(0, -digit));
-    return text.replace('-', QChar(0x2212));
+    return with_minus(fmt::format("{:.{}f}", value, std::max(0, -digit)));
 }
 
-QString value_text(double value) {
+std::string value_text(double value) {
     return rounded(value, 4);
 }
 
-QString error_text(double error) {
+std::string error_text(double error) {
     return rounded(error, 2);
 }
 
-}  // namespace asperity::studio
+}  // namespace asperity::plots

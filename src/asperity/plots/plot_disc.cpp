@@ -1,55 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plot_disc.h"
-
-#include <QPainter>
+#include <asperity/plots/plot_disc.h>
 
 #include <array>
 #include <cmath>
 
-namespace asperity::studio {
+namespace asperity::plots {
 
 namespace {
 
 constexpr std::size_t kAcross = 2;  ///< places in a pixel, along x and y
 constexpr std::size_t kColours = 512;
 
-QRgb rgb_of(io::Colour colour) {
-    const auto byte = [](double value) { return static_cast<int>(std::lround(255 * value)); };
-    return qRgb(byte(colour.r), byte(colour.g), byte(colour.b));
+using Colours = std::array<Colour, kColours>;
+
+Colour colour_of(io::Colour c) {
+    return {c.r, c.g, c.b};
 }
 
-std::array<QRgb, kColours> colours_of(io::ColourMap map) {
-    std::array<QRgb, kColours> colours{};
+Colours colours_of(io::ColourMap map) {
+    Colours colours{};
     for (std::size_t k = 0; k < kColours; ++k)
-        colours[k] = rgb_of(io::colour_of(map, static_cast<double>(k) / (kColours - 1)));
+        colours[k] = colour_of(io::colour_of(map, static_cast<double>(k) / (kColours - 1)));
     return colours;
-}
-
-/// Cuts the disc out of its square, with a smooth rim.
-QImage disc_of(const QImage& square) {
-    QImage disc(square.size(), QImage::Format_ARGB32_Premultiplied);
-    disc.fill(Qt::transparent);
-    QPainter painter(&disc);
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(square);
-    painter.drawEllipse(QRectF(disc.rect()));
-    return disc;
 }
 
 }  // namespace
 
-QImage DiscPainter::paint(int pixels, const Detector& detector, const std::vector<double>& values,
+Raster DiscPainter::paint(int pixels, const Detector& detector, const std::vector<double>& values,
                           const io::ValueScale& scale, io::ColourMap map) {
     if (pixels != pixels_ || detector.kind() != kind_ || detector.rows() != rows_ ||
         detector.columns() != columns_)
         find_cells(pixels, detector);
-    const std::array<QRgb, kColours> colours = colours_of(map);
-    const QRgb nothing = rgb_of(io::kZeroColour);
+    const Colours colours = colours_of(map);
     const std::size_t side = kAcross * static_cast<std::size_t>(pixels);
-    QImage square(pixels, pixels, QImage::Format_RGB32);
+    Raster disc(pixels, pixels);
     for (int j = 0; j < pixels; ++j) {
-        auto* line = reinterpret_cast<QRgb*>(square.scanLine(j));
         const int* cell = cells_.data() + kAcross * static_cast<std::size_t>(j) * side;
         for (int i = 0; i < pixels; ++i, cell += kAcross) {
             double sum = 0;
@@ -59,12 +44,15 @@ QImage DiscPainter::paint(int pixels, const Detector& detector, const std::vecto
                 sum += values[static_cast<std::size_t>(at)];
                 ++inside;
             }
-            line[i] = sum > 0 ? colours[static_cast<std::size_t>(
-                                    scale.position(sum / inside) * (kColours - 1) + 0.5)]
-                              : nothing;
+            if (inside == 0) continue;
+            const double place = sum > 0 ? scale.position(sum / inside) : 0;
+            const Colour colour =
+                sum > 0 ? colours[static_cast<std::size_t>(place * (kColours - 1) + 0.5)]
+                        : colour_of(io::kZeroColour);
+            disc.at(i, j) = packed(colour.with_opacity(inside / 4.0));
         }
     }
-    return disc_of(square);
+    return disc;
 }
 
 void DiscPainter::find_cells(int pixels, const Detector& detector) {
@@ -99,4 +87,4 @@ void DiscPainter::find_cells(int pixels, const Detector& detector) {
         }
 }
 
-}  // namespace asperity::studio
+}  // namespace asperity::plots

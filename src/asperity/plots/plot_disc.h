@@ -3,12 +3,11 @@
 
 #include <asperity/detector/detector.h>
 #include <asperity/pictures/layer_view.h>
-
-#include <QImage>
+#include <asperity/plots/canvas.h>
 
 #include <vector>
 
-namespace asperity::studio {
+namespace asperity::plots {
 
 /// Paints the hemisphere seen from above, fast enough for a layer that grows: it remembers which
 /// cells lie below which pixel, which changes with size and detector only.
@@ -16,7 +15,7 @@ class DiscPainter {
   public:
     /// A disc of `pixels` across on transparent ground. A pixel shows the mean of `values`, one per
     /// cell, at four places in it: equal areas of the disc are equal projected solid angles.
-    QImage paint(int pixels, const Detector& detector, const std::vector<double>& values,
+    Raster paint(int pixels, const Detector& detector, const std::vector<double>& values,
                  const io::ValueScale& scale, io::ColourMap map);
 
   private:
@@ -27,4 +26,4 @@ class DiscPainter {
     std::vector<int> cells_;  ///< of places twice as fine as pixels, by rows; -1: off the disc
 };
 
-}  // namespace asperity::studio
+}  // namespace asperity::plots

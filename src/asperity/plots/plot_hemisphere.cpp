@@ -1,227 +1,266 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plot_hemisphere.h"
-
-#include "plot_curves.h"
+#include <asperity/plots/plot_hemisphere.h>
 
 #include <asperity/core/directions.h>
-
-#include <QObject>
-#include <QPaintEngine>
-#include <QPolygonF>
+#include <asperity/plots/plot_curves.h>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-namespace asperity::studio {
+namespace asperity::plots {
 
 namespace {
 
-QColor colour(io::Colour c) {
-    return QColor::fromRgbF(static_cast<float>(c.r), static_cast<float>(c.g),
-                            static_cast<float>(c.b));
-}
+constexpr Colour kBlack = {0, 0, 0}, kWhite = {1, 1, 1};
 
 /// A line that is seen on any colour: light on a dark rim.
 template <class Paint>
-void paint_outlined(QPainter& painter, double width, const Paint& paint) {
-    painter.setBrush(Qt::NoBrush);
-    painter.setPen(QPen(Qt::black, 2.2 * width));
-    paint();
-    painter.setPen(QPen(Qt::white, width));
-    paint();
+void paint_outlined(double width, const Paint& paint) {
+    paint(Stroke{kBlack, 2.2 * width});
+    paint(Stroke{kWhite, width});
 }
 
 /// Directions are told in degrees.
-QString direction_text(double theta, double phi) {
-    return QStringLiteral("θₒ = %1°   φₒ = %2°")
-        .arg(degrees(theta), 0, 'f', 1)
-        .arg(degrees(phi), 0, 'f', 1);
+std::string direction_text(double theta, double phi) {
+    return fmt::format("θₒ = {:.1f}°   φₒ = {:.1f}°", degrees(theta), degrees(phi));
+}
+
+double standard_error(const Measurement& head, const Layer& layer, int channel, int cell) {
+    if (channel >= 0) return head.brdf_stderr(layer, channel, cell);
+    double sum = 0;  // channels share their rays
+    for (int c = 0; c < head.channels(); ++c) sum += head.brdf_stderr(layer, c, cell);
+    return sum / head.channels();
 }
 
 }  // namespace
 
-HemispherePlot::HemispherePlot(Data data) : data_(std::move(data)) {
-    values_ = io::values_of(*data_.head, *data_.layer, data_.settings.channel);
-    scale_ = io::value_scale(*data_.head, {data_.layer.get()}, data_.settings);
+HemisphereValues hemisphere_values(const Measurement& measurement, const Layer& layer,
+                                   int channel) {
+    HemisphereValues values;
+    values.detector = measurement.detector;
+    values.values = io::values_of(measurement, layer, channel);
+    values.theta_i = layer.theta_i;
+    values.phi_i = layer.phi_i;
+    if (layer.stderr_energy.empty()) return values;
+    for (int cell = 0; cell < values.detector.cells(); ++cell)
+        values.errors.push_back(standard_error(measurement, layer, channel, cell));
+    return values;
 }
 
-QString HemispherePlot::title() const {
-    return QObject::tr("Layer %1, θᵢ = %2°")
-        .arg(data_.layer->number)
-        .arg(value_text(degrees(data_.layer->theta_i)));
+struct HemispherePlot::Layout {
+    int columns = 1;
+    double side = 2, step_x = 0, step_y = 0;
+    Place first;  ///< left upper corner of the first disc
+    Box bar;
+};
+
+HemispherePlot::HemispherePlot(Data data) : data_(std::move(data)), images_(data_.discs.size()) {
+    if (!data_.painter) data_.painter = std::make_shared<DiscPainter>();
 }
 
-QRectF HemispherePlot::disc(const QRectF& area, const PlotStyle& style) const {
-    const QRectF rest = below_heading(area, style, title(), {});
+HemispherePlot::Layout HemispherePlot::layout(const Box& area, const PlotStyle& style) const {
+    const Box rest = below_heading(area, style, {data_.title, data_.note});
     const double line = style.line_height();
-    const double for_bar = 8 * line, label = 2.4 * line;
-    const double side =
-        std::max(2.0, std::min(rest.width() - for_bar - label, rest.height() - 1.2 * label));
-    const double left = rest.left() + label + (rest.width() - for_bar - label - side) / 2;
-    return {left, rest.top() + (rest.height() - side) / 2, side, side};
-}
-
-QPointF HemispherePlot::place_of(const QRectF& disc, double theta, double phi) {
-    const double r = 0.5 * disc.width() * std::sin(theta);
-    return disc.center() + QPointF(r * std::cos(phi), -r * std::sin(phi));
-}
-
-void HemispherePlot::paint(QPainter& painter, const QRectF& area, const PlotStyle& style) const {
-    paint_heading(painter, area, style, title(), {});
-    const QRectF disc = this->disc(area, style);
-    // Files that can be enlarged get a picture of their own, finer than any screen
-    const bool vector = painter.paintEngine()->type() == QPaintEngine::SVG;
-    const double scale = vector ? 3 : painter.device()->devicePixelRatioF();
-    painter.drawImage(disc, image(static_cast<int>(std::ceil(disc.width() * scale))));
-    paint_grid(painter, disc, style);
-    paint_marks(painter, disc);
-    if (data_.cell) paint_cell(painter, disc);
-    paint_bar(painter, disc, style);
-}
-
-const QImage& HemispherePlot::image(int pixels) const {
-    if (image_.width() != pixels)
-        image_ = data_.painter->paint(pixels, data_.head->detector, values_, scale_,
-                                      data_.settings.colour_map);
-    return image_;
-}
-
-void HemispherePlot::paint_grid(QPainter& painter, const QRectF& disc,
-                                const PlotStyle& style) const {
-    const double line = style.line_height();
-    painter.setBrush(Qt::NoBrush);
-    painter.setPen(QPen(QColor(255, 255, 255, 60), 1));
-    for (const double theta_deg : {30.0, 60.0}) {
-        const double r = 0.5 * disc.width() * std::sin(radians(theta_deg));
-        painter.drawEllipse(disc.center(), r, r);
+    const double for_bar = 7.5 * line, across = 2 * 2.4 * line;
+    const int count = static_cast<int>(data_.discs.size());
+    const double upright = (count > 1 ? 4.2 : 2.9) * line;
+    Layout best;
+    for (int columns = 1; columns <= count; ++columns) {
+        const int rows = (count + columns - 1) / columns;
+        const double side = std::max(
+            2.0, std::min((rest.width - for_bar) / columns - across, rest.height / rows - upright));
+        if (columns > 1 && side <= best.side) continue;
+        best.columns = columns;
+        best.side = side;
+        best.step_x = side + across;
+        best.step_y = side + upright;
+        const double wide = columns * best.step_x + for_bar, high = rows * best.step_y;
+        best.first = {rest.left + (rest.width - wide) / 2 + across / 2,
+                      rest.top + (rest.height - high) / 2 + 1.45 * line};
+        const double bar_height = std::min(0.9 * (high - upright), 1.4 * side);
+        best.bar = {rest.left + (rest.width + wide) / 2 - for_bar + 0.9 * line,
+                    best.first.y + (high - upright - bar_height) / 2 + 0.4 * line, line,
+                    bar_height};
     }
-    painter.drawLine(place_of(disc, kPi / 2, 0), place_of(disc, kPi / 2, kPi));
-    painter.drawLine(place_of(disc, kPi / 2, kPi / 2), place_of(disc, kPi / 2, -kPi / 2));
-    painter.setPen(QPen(style.faint, 1));
-    painter.drawEllipse(disc);
-    painter.setFont(style.small);
+    return best;
+}
+
+Box HemispherePlot::disc(const Box& area, const PlotStyle& style, std::size_t k) const {
+    const Layout at = layout(area, style);
+    const int column = static_cast<int>(k) % at.columns, row = static_cast<int>(k) / at.columns;
+    return {at.first.x + column * at.step_x, at.first.y + row * at.step_y, at.side, at.side};
+}
+
+Place HemispherePlot::place_of(const Box& disc, double theta, double phi) {
+    const double r = 0.5 * disc.width * std::sin(theta);
+    return disc.centre() + Place{r * std::cos(phi), -r * std::sin(phi)};
+}
+
+double HemispherePlot::height_for(double width, const PlotStyle& style) const {
+    const double line = style.line_height();
+    const double head = below_heading({0, 0, width, 0}, style, {data_.title, data_.note}).top;
+    const int count = static_cast<int>(data_.discs.size());
+    const int columns = count <= 3 ? count : (count + 1) / 2;
+    const int rows = (count + columns - 1) / columns;
+    const double side = (width - 7.5 * line) / columns - 4.8 * line;
+    return head + rows * (std::max(side, 4 * line) + (count > 1 ? 4.2 : 2.9) * line);
+}
+
+void HemispherePlot::paint(Canvas& canvas, const Box& area, const PlotStyle& style) const {
+    paint_heading(canvas, area, style, {data_.title, data_.note});
+    for (std::size_t k = 0; k < data_.discs.size(); ++k) {
+        const Box disc = this->disc(area, style, k);
+        canvas.picture(
+            disc, image(k, static_cast<int>(std::ceil(disc.width * canvas.pixels_per_unit()))));
+        paint_grid(canvas, disc, style);
+        paint_marks(canvas, disc, data_.discs[k]);
+        if (k == 0 && data_.cell) paint_cell(canvas, disc);
+        if (data_.discs.size() > 1)
+            canvas.text({disc.centre().x, disc.bottom() + 2 * style.line_height()},
+                        data_.discs[k].name, style.font, style.text, TextAlign::Centre);
+    }
+    paint_bar(canvas, layout(area, style).bar, style);
+}
+
+const Raster& HemispherePlot::image(std::size_t k, int pixels) const {
+    if (images_[k].width != pixels)
+        images_[k] = data_.painter->paint(pixels, data_.discs[k].detector, data_.discs[k].values,
+                                          data_.scale, data_.colour_map);
+    return images_[k];
+}
+
+void HemispherePlot::paint_grid(Canvas& canvas, const Box& disc, const PlotStyle& style) const {
+    const double line = style.line_height();
+    const Stroke faint{kWhite.with_opacity(0.24), 1};
+    for (const double theta_deg : {30.0, 60.0})
+        canvas.circle(disc.centre(), 0.5 * disc.width * std::sin(radians(theta_deg)), faint);
+    canvas.line(place_of(disc, kPi / 2, 0), place_of(disc, kPi / 2, kPi), faint);
+    canvas.line(place_of(disc, kPi / 2, kPi / 2), place_of(disc, kPi / 2, -kPi / 2), faint);
+    canvas.circle(disc.centre(), 0.5 * disc.width, {style.faint, 1});
     for (int phi = 0; phi < 360; phi += 90) {
-        const double reach = 0.5 * disc.width() + (phi % 180 == 0 ? 1.2 : 0.75) * line;
-        const QPointF place =
-            disc.center() + reach * QPointF(std::cos(radians(phi)), -std::sin(radians(phi)));
-        const QRectF box(place.x() - 3 * line, place.y() - line, 6 * line, 2 * line);
-        painter.drawText(box, Qt::AlignCenter, QString::number(phi) + QStringLiteral("°"));
+        const double reach = 0.5 * disc.width + (phi % 180 == 0 ? 1.2 : 0.75) * line;
+        const Place along{std::cos(radians(phi)), -std::sin(radians(phi))};
+        canvas.text(disc.centre() + reach * along, fmt::format("{}°", phi), style.small,
+                    style.faint, TextAlign::Centre);
     }
 }
 
-void HemispherePlot::paint_marks(QPainter& painter, const QRectF& disc) const {
-    const Layer& layer = *data_.layer;
-    const double size = std::max(4.0, 0.018 * disc.width());
+void HemispherePlot::paint_marks(Canvas& canvas, const Box& disc,
+                                 const HemisphereValues& values) const {
+    const double size = std::max(4.0, 0.018 * disc.width);
     // The mirror direction: a ring; the light: a small sun
-    const QPointF mirror = place_of(disc, layer.theta_i, layer.phi_i + kPi);
-    paint_outlined(painter, 1.3, [&] { painter.drawEllipse(mirror, size, size); });
-    if (layer.theta_i == 0) return;
-    const QPointF light = place_of(disc, layer.theta_i, layer.phi_i);
-    paint_outlined(painter, 1.3, [&] {
+    const Place mirror = place_of(disc, values.theta_i, values.phi_i + kPi);
+    paint_outlined(1.3, [&](const Stroke& stroke) { canvas.circle(mirror, size, stroke); });
+    if (values.theta_i == 0) return;
+    const Place light = place_of(disc, values.theta_i, values.phi_i);
+    paint_outlined(1.3, [&](const Stroke& stroke) {
         for (int k = 0; k < 8; ++k) {
-            const QPointF along(std::cos(k * kPi / 4), std::sin(k * kPi / 4));
-            painter.drawLine(light + 0.55 * size * along, light + 1.1 * size * along);
+            const Place along{std::cos(k * kPi / 4), std::sin(k * kPi / 4)};
+            canvas.line(light + 0.55 * size * along, light + 1.1 * size * along, stroke);
         }
     });
 }
 
-void HemispherePlot::paint_cell(QPainter& painter, const QRectF& disc) const {
-    const Detector& detector = data_.head->detector;
+void HemispherePlot::paint_cell(Canvas& canvas, const Box& disc) const {
+    const Detector& detector = data_.discs.front().detector;
     if (*data_.cell < 0 || *data_.cell >= detector.cells()) return;
     const int row = *data_.cell / detector.columns(), column = *data_.cell % detector.columns();
     constexpr int kSteps = 12;
-    QPolygonF outline;
+    std::vector<Place> outline;
     const auto add = [&](double theta, int step) {
         const double share = static_cast<double>(step) / kSteps;
-        outline << place_of(disc, theta,
-                            detector.phi_edge(column) + share * (detector.phi_edge(column + 1) -
-                                                                 detector.phi_edge(column)));
+        outline.push_back(
+            place_of(disc, theta,
+                     detector.phi_edge(column) +
+                         share * (detector.phi_edge(column + 1) - detector.phi_edge(column))));
     };
     for (int step = 0; step <= kSteps; ++step) add(detector.theta_edge(row), step);
     for (int step = kSteps; step >= 0; --step) add(detector.theta_edge(row + 1), step);
-    paint_outlined(painter, 1.5, [&] { painter.drawPolygon(outline); });
+    outline.push_back(outline.front());
+    paint_outlined(1.5, [&](const Stroke& stroke) { canvas.polyline(outline, stroke); });
 }
 
-void HemispherePlot::paint_bar(QPainter& painter, const QRectF& disc,
-                               const PlotStyle& style) const {
+void HemispherePlot::paint_bar(Canvas& canvas, const Box& bar, const PlotStyle& style) const {
+    paint_colour_bar(canvas, bar, style, data_.scale, data_.colour_map, "BRDF  f  [sr⁻¹]");
+}
+
+void paint_colour_bar(Canvas& canvas, const Box& bar, const PlotStyle& style,
+                      const io::ValueScale& scale, io::ColourMap map, const std::string& name) {
     const double line = style.line_height();
-    const QRectF bar(disc.right() + 2.8 * line, disc.top() + 0.05 * disc.height(), line,
-                     0.9 * disc.height());
-    QLinearGradient gradient(bar.bottomLeft(), bar.topLeft());
-    constexpr int kStops = 32;
-    for (int k = 0; k <= kStops; ++k) {
-        const double t = static_cast<double>(k) / kStops;
-        gradient.setColorAt(t, colour(io::colour_of(data_.settings.colour_map, t)));
+    constexpr int kSteps = 256;
+    Raster colours(1, kSteps);
+    for (int k = 0; k < kSteps; ++k) {
+        const io::Colour c = io::colour_of(map, 1 - (k + 0.5) / kSteps);
+        colours.at(0, k) = packed({c.r, c.g, c.b});
     }
-    painter.setPen(QPen(style.faint, 1));
-    painter.setBrush(gradient);
-    painter.drawRect(bar);
-    painter.setBrush(Qt::NoBrush);
-
-    const PlotAxis axis{{}, scale_.low, scale_.high, scale_.scale == io::Scale::Log, 0};
-    painter.setFont(style.small);
+    canvas.picture(bar, colours);
+    canvas.frame(bar, {style.faint, 1});
+    const PlotAxis axis{{}, scale.low, scale.high, scale.scale == io::Scale::Log, 0};
     for (const PlotTick& tick :
-         axis.ticks(std::max(2, static_cast<int>(bar.height() / (2.5 * line))))) {
-        const double y = bar.bottom() - axis.position(tick.value) * bar.height();
-        const double length = tick.label.isEmpty() ? 0.15 * line : 0.3 * line;
-        painter.setPen(QPen(style.faint, 1));
-        painter.drawLine(QPointF(bar.right(), y), QPointF(bar.right() + length, y));
-        const bool last = scale_.clipped && tick.value > scale_.high * (1 - 1e-6);
-        painter.drawText(QRectF(bar.right() + 0.45 * line, y - line, 6 * line, 2 * line),
-                         Qt::AlignLeft | Qt::AlignVCenter,
-                         last ? QStringLiteral("≥ ") + tick.label : tick.label);
+         axis.ticks(std::max(2, static_cast<int>(bar.height / (2.5 * line))))) {
+        const double y = bar.bottom() - axis.position(tick.value) * bar.height;
+        const double length = (tick.label.empty() ? 0.15 : 0.3) * line;
+        canvas.line({bar.right(), y}, {bar.right() + length, y}, {style.faint, 1});
+        const bool last = scale.clipped && tick.value > scale.high * (1 - 1e-6);
+        canvas.text({bar.right() + 0.45 * line, y}, last ? "≥ " + tick.label : tick.label,
+                    style.small, style.faint, TextAlign::Left);
     }
-    painter.setPen(style.text);
-    painter.setFont(style.font);
-    painter.drawText(QRectF(bar.left() - line, bar.top() - 1.9 * line, 6 * line, 1.5 * line),
-                     Qt::AlignLeft | Qt::AlignVCenter, QStringLiteral("f  [sr⁻¹]"));
+    canvas.text({bar.left - 0.3 * line, bar.top - 1.15 * line}, name, style.font, style.text,
+                TextAlign::Left);
 }
 
-double HemispherePlot::standard_error(int cell) const {
-    const Measurement& head = *data_.head;
-    if (data_.layer->stderr_energy.empty()) return 0;
-    if (data_.settings.channel >= 0)
-        return head.brdf_stderr(*data_.layer, data_.settings.channel, cell);
-    double sum = 0;  // channels share their rays
-    for (int c = 0; c < head.channels(); ++c) sum += head.brdf_stderr(*data_.layer, c, cell);
-    return sum / head.channels();
-}
-
-std::optional<PlotReading> HemispherePlot::reading(QPointF place, const QRectF& area,
+std::optional<PlotReading> HemispherePlot::reading(Place place, const Box& area,
                                                    const PlotStyle& style) const {
-    const QRectF disc = this->disc(area, style);
-    const double x = (place.x() - disc.center().x()) / (0.5 * disc.width());
-    const double y = (disc.center().y() - place.y()) / (0.5 * disc.width());
-    const double r2 = x * x + y * y;
-    if (r2 >= 1) return std::nullopt;
-    const Detector& detector = data_.head->detector;
-    const int cell = detector.cell_of({x, y, std::sqrt(1 - r2)});
-    PlotReading reading;
-    reading.cell = cell;
-    reading.text = QObject::tr("cell %1   %2   f = %3 ± %4 sr⁻¹")
-                       .arg(cell)
-                       .arg(direction_text(detector.theta_centre(cell / detector.columns()),
-                                           detector.phi_centre(cell % detector.columns())),
-                            value_text(values_[static_cast<std::size_t>(cell)]),
-                            error_text(standard_error(cell)));
-    return reading;
+    for (std::size_t k = 0; k < data_.discs.size(); ++k) {
+        const Box disc = this->disc(area, style, k);
+        const HemisphereValues& of = data_.discs[k];
+        const double x = (place.x - disc.centre().x) / (0.5 * disc.width);
+        const double y = (disc.centre().y - place.y) / (0.5 * disc.width);
+        const double r2 = x * x + y * y;
+        if (r2 >= 1) continue;
+        const int cell = of.detector.cell_of({x, y, std::sqrt(1 - r2)});
+        const std::size_t at = static_cast<std::size_t>(cell);
+        PlotReading reading;
+        reading.cell = cell;
+        reading.text = fmt::format(
+            "cell {}   {}   f = {} ± {} sr⁻¹", cell,
+            direction_text(of.detector.theta_centre(cell / of.detector.columns()),
+                           of.detector.phi_centre(cell % of.detector.columns())),
+            value_text(of.values[at]), error_text(of.errors.empty() ? 0 : of.errors[at]));
+        return reading;
+    }
+    return std::nullopt;
 }
 
 PlotTable HemispherePlot::table() const {
-    const Detector& detector = data_.head->detector;
-    PlotTable table{{{QStringLiteral("cell"), {}},
-                     {QStringLiteral("theta_o [deg]"), {}},
-                     {QStringLiteral("phi_o [deg]"), {}},
-                     {QStringLiteral("f [1/sr]"), values_},
-                     {QStringLiteral("standard error of f [1/sr]"), {}}}};
-    for (int cell = 0; cell < detector.cells(); ++cell) {
-        table.columns[0].values.push_back(cell);
-        table.columns[1].values.push_back(
-            degrees(detector.theta_centre(cell / detector.columns())));
-        table.columns[2].values.push_back(degrees(detector.phi_centre(cell % detector.columns())));
-        table.columns[4].values.push_back(standard_error(cell));
+    PlotTable table;
+    const auto same = [](const Detector& a, const Detector& b) {
+        return a.kind() == b.kind() && a.rows() == b.rows() && a.columns() == b.columns();
+    };
+    for (std::size_t k = 0; k < data_.discs.size(); ++k) {
+        const HemisphereValues& of = data_.discs[k];
+        const Detector& detector = of.detector;
+        const bool own = k == 0 || !same(detector, data_.discs.front().detector);
+        const std::string prefix = data_.discs.size() == 1 ? "" : of.name + ": ";
+        std::vector<double> cells, theta, phi;
+        for (int cell = 0; cell < detector.cells(); ++cell) {
+            cells.push_back(cell);
+            theta.push_back(degrees(detector.theta_centre(cell / detector.columns())));
+            phi.push_back(degrees(detector.phi_centre(cell % detector.columns())));
+        }
+        if (own) {
+            const std::string whose = k == 0 ? "" : prefix;
+            table.columns.push_back({whose + "cell", cells});
+            table.columns.push_back({whose + "theta_o [deg]", theta});
+            table.columns.push_back({whose + "phi_o [deg]", phi});
+        }
+        table.columns.push_back({prefix + "f [1/sr]", of.values});
+        if (!of.errors.empty())
+            table.columns.push_back({prefix + "standard error of f [1/sr]", of.errors});
     }
     return table;
 }
 
-}  // namespace asperity::studio
+}  // namespace asperity::plots

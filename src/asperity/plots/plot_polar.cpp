@@ -1,148 +1,222 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plot_polar.h"
+#include <asperity/plots/plot_polar.h>
 
 #include <asperity/core/directions.h>
 
-#include <QObject>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-namespace asperity::studio {
+namespace asperity::plots {
 
-PolarFrame::PolarFrame(const QRectF& area, PlotAxis radius, const PlotStyle& style)
-    : axis_(std::move(radius)), style_(style) {
-    const double line = style.line_height();
-    const double above = 2.2 * line, below = 2.8 * line, beside = 2.6 * line;
-    radius_ = std::max(1.0, std::min(area.width() / 2 - beside, area.height() - above - below));
-    const double spare = std::max(0.0, area.height() - above - below - radius_);
-    centre_ = {area.center().x(), area.top() + above + spare / 2 + radius_};
+namespace {
+
+// Room about the disc, in lines: for the angles, and for the values and their name
+constexpr double kAbove = 1.6, kBelow = 2.7, kBeside = 2.1;
+
+double distance(const Box& box, Place from) {
+    const double x = std::clamp(from.x, box.left, box.right());
+    const double y = std::clamp(from.y, box.top, box.bottom());
+    return std::hypot(x - from.x, y - from.y);
 }
 
-QPointF PolarFrame::on_circle(double theta_deg, double radius) const {
+}  // namespace
+
+PolarFrame::PolarFrame(Place centre, double radius, PlotAxis axis, const PlotStyle& style)
+    : axis_(std::move(axis)), style_(style), centre_(centre), radius_(radius) {}
+
+Place PolarFrame::on_circle(double theta_deg, double radius) const {
     const double theta = radians(theta_deg);
-    return centre_ + radius * QPointF(std::sin(theta), -std::cos(theta));
+    return centre_ + radius * Place{std::sin(theta), -std::cos(theta)};
 }
 
-QPointF PolarFrame::map(double theta_deg, double value) const {
+Place PolarFrame::map(double theta_deg, double value) const {
     return on_circle(theta_deg, radius_ * std::clamp(axis_.position(value), 0.0, 1.0));
 }
 
-std::optional<double> PolarFrame::theta_at(QPointF place) const {
-    const QPointF from_centre = place - centre_;
-    const double distance = std::hypot(from_centre.x(), from_centre.y());
-    if (from_centre.y() > 0 || distance > radius_ || distance == 0) return std::nullopt;
-    return degrees(std::atan2(from_centre.x(), -from_centre.y()));
+std::optional<double> PolarFrame::theta_at(Place place) const {
+    const Place from_centre = place - centre_;
+    const double distance = std::hypot(from_centre.x, from_centre.y);
+    if (from_centre.y > 0 || distance > radius_ || distance == 0) return std::nullopt;
+    return degrees(std::atan2(from_centre.x, -from_centre.y));
 }
 
-void PolarFrame::paint_axes(QPainter& painter) const {
+void PolarFrame::paint_angles(Canvas& canvas) const {
     const double line = style_.line_height();
-    painter.setBrush(Qt::NoBrush);
-    painter.setFont(style_.small);
-
-    // Rays every 30 degrees, finer ones every 10 at the rim
     for (int theta = -90; theta <= 90; theta += 10) {
         const bool labelled = theta % 30 == 0;
-        painter.setPen(QPen(labelled ? style_.grid : style_.faint, 1));
         const double from = labelled ? 0 : radius_ - 0.3 * line;
-        painter.drawLine(on_circle(theta, from), on_circle(theta, radius_));
+        canvas.line(on_circle(theta, from), on_circle(theta, radius_),
+                    {labelled ? style_.grid : style_.faint, 1});
         if (!labelled) continue;
-        painter.setPen(style_.faint);
-        const QPointF place = on_circle(theta, radius_ + 1.1 * line);
-        painter.drawText(QRectF(place.x() - 3 * line, place.y() - line, 6 * line, 2 * line),
-                         Qt::AlignCenter, number_label(theta, 30) + QStringLiteral("°"));
+        canvas.text(on_circle(theta, radius_ + 1.1 * line), number_label(theta, 30) + "°",
+                    style_.small, style_.faint, TextAlign::Centre);
     }
+}
 
-    // Rings of equal value, labelled on both halves of the base line
+void PolarFrame::paint_rings(Canvas& canvas) const {
+    const double line = style_.line_height();
     double last_label = -1e9;
     for (const PlotTick& tick : axis_.ticks(std::max(2, static_cast<int>(radius_ / (3 * line))))) {
         const double r = radius_ * axis_.position(tick.value);
-        QColor colour = style_.grid;
-        if (tick.label.isEmpty()) colour.setAlphaF(0.5F);
-        painter.setPen(QPen(colour, 1));
-        const QRectF circle(centre_.x() - r, centre_.y() - r, 2 * r, 2 * r);
-        if (r > 0.5) painter.drawArc(circle, 0, 180 * 16);
-        if (tick.label.isEmpty() || r - last_label < style_.width_of(tick.label)) continue;
+        const bool labelled = !tick.label.empty();
+        if (r > 0.5 && labelled) canvas.arc(centre_, r, 0, kPi, {style_.grid, 1});
+        for (const double side : {-1.0, 1.0}) {
+            const Place foot = centre_ + Place{side * r, 0};
+            canvas.line(foot, foot - Place{0, (labelled ? 0.3 : 0.15) * line}, {style_.faint, 1});
+        }
+        if (!labelled || r - last_label < style_.width_of(tick.label)) continue;
         last_label = r;
-        painter.setPen(style_.faint);
         for (const double side : {-1.0, 1.0}) {
             if (r < 0.5 && side < 0) continue;
-            const QPointF place = centre_ + QPointF(side * r, 0.2 * line);
-            painter.drawText(QRectF(place.x() - 4 * line, place.y(), 8 * line, 1.2 * line),
-                             Qt::AlignHCenter | Qt::AlignTop, tick.label);
+            canvas.text(centre_ + Place{side * r, 0.75 * line}, tick.label, style_.small,
+                        style_.faint, TextAlign::Centre);
         }
     }
+}
 
+void PolarFrame::paint_axes(Canvas& canvas) const {
+    paint_angles(canvas);
+    paint_rings(canvas);
     // The surface and the rim
-    painter.setPen(QPen(style_.faint, 1));
-    painter.drawArc(QRectF(centre_.x() - radius_, centre_.y() - radius_, 2 * radius_, 2 * radius_),
-                    0, 180 * 16);
-    painter.drawLine(on_circle(-90, radius_), on_circle(90, radius_));
-    painter.setPen(style_.text);
-    painter.setFont(style_.font);
-    painter.drawText(
-        QRectF(centre_.x() - radius_, centre_.y() + 1.4 * line, 2 * radius_, 1.3 * line),
-        Qt::AlignCenter, axis_.label);
+    canvas.arc(centre_, radius_, 0, kPi, {style_.faint, 1});
+    canvas.line(on_circle(-90, radius_), on_circle(90, radius_), {style_.faint, 1});
+    canvas.text(centre_ + Place{0, 2 * style_.line_height()}, axis_.label, style_.font, style_.text,
+                TextAlign::Centre);
 }
 
-void PolarFrame::paint_line(QPainter& painter, const PlotCurve& curve) const {
-    QPolygonF line;
-    for (std::size_t k = 0; k < curve.x.size(); ++k) line << map(curve.x[k], curve.y[k]);
-    painter.setBrush(Qt::NoBrush);
-    painter.setPen(pen_of(style_, curve.ink, curve.look));
-    painter.drawPolyline(line);
+void PolarFrame::paint_line(Canvas& canvas, const PlotCurve& curve) const {
+    std::vector<Place> line;
+    for (std::size_t k = 0; k < curve.x.size(); ++k) line.push_back(map(curve.x[k], curve.y[k]));
+    canvas.polyline(line, stroke_of(style_, curve.ink, curve.look));
 }
 
-void PolarFrame::paint_band(QPainter& painter, const PlotCurve& curve) const {
-    asperity::studio::paint_band(painter, style_, curve, 0.25F,
-                                 [this](double x, double y) { return map(x, y); });
+void PolarFrame::paint_band(Canvas& canvas, const PlotCurve& curve) const {
+    asperity::plots::paint_band(canvas, style_, curve, 0.25,
+                                [this](double x, double y) { return map(x, y); });
 }
 
-void PolarFrame::paint_light(QPainter& painter, double theta_deg) const {
+void PolarFrame::paint_light(Canvas& canvas, double theta_deg) const {
     const double line = style_.line_height(), head = 0.75 * line;
-    const QColor colour = style_.ink(PlotInk::Light);
-    painter.setPen(QPen(colour, line / 8, Qt::SolidLine, Qt::FlatCap));
-    painter.drawLine(on_circle(theta_deg, radius_), on_circle(theta_deg, 0.8 * head));
-    const QPointF along = on_circle(theta_deg, 1) - centre_;
-    const QPointF across(-along.y(), along.x());
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(colour);
-    painter.drawPolygon(QPolygonF({centre_, centre_ + head * along + 0.32 * head * across,
-                                   centre_ + head * along - 0.32 * head * across}));
-    painter.setBrush(Qt::NoBrush);
+    const Colour colour = style_.ink(PlotInk::Light);
+    canvas.line(on_circle(theta_deg, radius_), on_circle(theta_deg, 0.8 * head),
+                {colour, line / 8});
+    const Place along = on_circle(theta_deg, 1) - centre_;
+    const Place across{-along.y, along.x};
+    canvas.polygon(std::array{centre_, centre_ + head * along + 0.32 * head * across,
+                              centre_ + head * along - 0.32 * head * across},
+                   colour);
 }
 
-void PolarFrame::paint_direction(QPainter& painter, double theta_deg, const QPen& pen) const {
-    painter.setPen(pen);
-    painter.drawLine(centre_, on_circle(theta_deg, radius_));
+void PolarFrame::paint_direction(Canvas& canvas, double theta_deg, const Stroke& stroke) const {
+    canvas.line(centre_, on_circle(theta_deg, radius_), stroke);
 }
 
-PolarPlot::PolarPlot(CurveSet set, PlotAxis radius, double theta_i_deg)
-    : set_(std::move(set)), axis_(std::move(radius)), theta_i_deg_(theta_i_deg) {}
+PolarPlot::PolarPlot(CurveSet set, PlotAxis radius, std::vector<double> theta_i_deg)
+    : set_(std::move(set)), axis_(std::move(radius)), theta_i_deg_(std::move(theta_i_deg)) {}
 
-std::vector<LegendEntry> PolarPlot::legend() const {
-    std::vector<LegendEntry> legend = legend_of(set_);
-    legend.push_back({QObject::tr("light"), PlotInk::Light, CurveLook::Line});
-    legend.push_back({QObject::tr("mirror direction"), PlotInk::Mirror, CurveLook::Dashes});
-    return legend;
+Heading PolarPlot::heading() const {
+    Heading heading{set_.title, set_.note_with(axis_.high), legend_of(set_)};
+    if (!theta_i_deg_.empty()) {
+        heading.legend.push_back({"light", PlotInk::Light, CurveLook::Line});
+        heading.legend.push_back({"mirror direction", PlotInk::Mirror, CurveLook::Dashes});
+    }
+    return heading;
 }
 
-PolarFrame PolarPlot::frame(const QRectF& area, const PlotStyle& style) const {
-    return {below_heading(area, style, set_.title, legend()), axis_, style};
+PolarPlot::Layout PolarPlot::legend_above(const Box& area, const PlotStyle& style) const {
+    const double line = style.line_height();
+    const Box rest = below_heading(area, style, heading());
+    Layout layout;
+    layout.radius = std::max(
+        1.0, std::min(rest.width / 2 - kBeside * line, rest.height - (kAbove + kBelow) * line));
+    const double spare = rest.height - (kAbove + kBelow) * line - layout.radius;
+    layout.centre = {rest.centre().x,
+                     rest.top + kAbove * line + std::max(0.0, spare) / 2 + layout.radius};
+    layout.entries =
+        placed_entries(heading().legend, area, style, below_lines(area, style, heading()));
+    return layout;
 }
 
-void PolarPlot::paint(QPainter& painter, const QRectF& area, const PlotStyle& style) const {
-    paint_heading(painter, area, style, set_.title, legend());
-    const PolarFrame frame = this->frame(area, style);
-    frame.paint_axes(painter);
-    frame.paint_direction(painter, theta_i_deg_, pen_of(style, PlotInk::Mirror, CurveLook::Dashes));
+PolarPlot::Layout PolarPlot::legend_in_corners(const Box& area, const PlotStyle& style) const {
+    const double line = style.line_height();
+    const Heading heading = this->heading();
+    Layout layout;
+    // Curves on the left below each other, light and mirror direction on the right
+    const double top = below_lines(area, style, heading);
+    double left_y = top + 0.6 * line, right_y = top + 0.6 * line;
+    std::vector<Box> taken;
+    for (const PlacedLine& words : placed_lines(area, style, heading)) taken.push_back(words.box);
+    const std::size_t curves = set_.curves.size();
+    for (std::size_t k = 0; k < heading.legend.size(); ++k) {
+        const LegendEntry& entry = heading.legend[k];
+        const double width = box_of({entry, {}}, style).width;
+        double& y = k < curves ? left_y : right_y;
+        const double x = k < curves ? area.left + 0.5 * line : area.right() - 0.5 * line - width;
+        layout.entries.push_back({entry, {x, y}});
+        taken.push_back(box_of(layout.entries.back(), style));
+        y += 1.15 * line;
+    }
+    const double bottom = area.bottom() - kBelow * line;
+    const auto fits = [&](double radius) {
+        const Place centre{area.centre().x, bottom};
+        return std::all_of(taken.begin(), taken.end(), [&](const Box& box) {
+            return distance(box, centre) >= radius + kAbove * line;
+        });
+    };
+    double low = 1, high = std::max(1.0, std::min(area.width / 2 - kBeside * line,
+                                                  area.height - (kAbove + kBelow) * line));
+    if (!fits(high)) {
+        for (int step = 0; step < 30; ++step) {
+            const double middle = (low + high) / 2;
+            (fits(middle) ? low : high) = middle;
+        }
+        high = low;
+    }
+    layout.radius = high;
+    layout.centre = {area.centre().x, bottom};
+    return layout;
+}
+
+PolarPlot::Layout PolarPlot::layout(const Box& area, const PlotStyle& style) const {
+    Layout above = legend_above(area, style), corners = legend_in_corners(area, style);
+    return corners.radius > 1.02 * above.radius ? corners : above;
+}
+
+double PolarPlot::height_for(double width, const PlotStyle& style) const {
+    // As high as it may be used: with the words above, or in the corners
+    const double line = style.line_height();
+    const double disc = width / 2 + (kAbove + kBelow - kBeside) * line;
+    const Box tall{0, 0, width, 10 * width};
+    const double above = below_heading(tall, style, heading()).top + disc;
+    for (double height = disc; height < above; height += 0.5 * line) {
+        const Layout layout = legend_in_corners({0, 0, width, height}, style);
+        if (layout.radius >= width / 2 - kBeside * line - 1e-6) return height;
+    }
+    return above;
+}
+
+PolarFrame PolarPlot::frame(const Box& area, const PlotStyle& style) const {
+    const Layout layout = this->layout(area, style);
+    return {layout.centre, layout.radius, axis_, style};
+}
+
+void PolarPlot::paint(Canvas& canvas, const Box& area, const PlotStyle& style) const {
+    canvas.fill(area, style.paper);
+    const Layout layout = this->layout(area, style);
+    paint_lines(canvas, style, placed_lines(area, style, heading()));
+    for (const PlacedEntry& entry : layout.entries) paint_entry(canvas, style, entry);
+    const PolarFrame frame(layout.centre, layout.radius, axis_, style);
+    frame.paint_axes(canvas);
+    for (const double theta : theta_i_deg_)
+        frame.paint_direction(canvas, theta, stroke_of(style, PlotInk::Mirror, CurveLook::Dashes));
     for (const PlotCurve& curve : set_.curves)
-        if (set_.error_band && !curve.error.empty()) frame.paint_band(painter, curve);
-    for (const PlotCurve& curve : set_.curves) frame.paint_line(painter, curve);
-    frame.paint_light(painter, -theta_i_deg_);
+        if (set_.error_band && !curve.error.empty()) frame.paint_band(canvas, curve);
+    for (const PlotCurve& curve : set_.curves) frame.paint_line(canvas, curve);
+    for (const double theta : theta_i_deg_) frame.paint_light(canvas, -theta);
 }
 
-std::optional<PlotReading> PolarPlot::reading(QPointF place, const QRectF& area,
+std::optional<PlotReading> PolarPlot::reading(Place place, const Box& area,
                                               const PlotStyle& style) const {
     const PolarFrame frame = this->frame(area, style);
     const auto theta = frame.theta_at(place);
@@ -159,4 +233,4 @@ std::optional<PlotReading> PolarPlot::reading(QPointF place, const QRectF& area,
     return reading;
 }
 
-}  // namespace asperity::studio
+}  // namespace asperity::plots
