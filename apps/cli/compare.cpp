@@ -2,6 +2,7 @@
 // asperity compare: how far two BRDFs, measured or analytic, lie apart.
 #include "brdf_argument.h"
 #include "console.h"
+#include "file_kind.h"
 #include "help.h"
 #include "options.h"
 #include "output_path.h"
@@ -37,7 +38,8 @@ std::string closing() {
            "models. Two pictures (.exr, .hdr) of one size are compared in linear light, pixel by\n"
            "pixel. L1 is the integral of |fa - fb| cos(theta) over the hemisphere (0 equal, 2\n"
            "apart); noise is what it would be from the error bars alone; RMS is of the same\n"
-           "difference, in 1/sr.\n"
+           "difference, in 1/sr. Of two results with other layers or cells, B is interpolated to\n"
+           "those of A, its lobes moving with the light.\n"
            "\n"
            "Examples\n"
            "  asperity compare rough.asperity cook-torrance:roughness=0.55,metallic=1\n"
@@ -58,7 +60,7 @@ Side open_side(const std::string& text) {
     side.model = open_brdf(text, io::BsdfFormats());
     if (side.model) return side;
     check_brdf_exists(text);
-    side.measurement = std::make_unique<Measurement>(io::load_measurement(text));
+    side.measurement = std::make_unique<Measurement>(load_result(text));
     return side;
 }
 
@@ -142,9 +144,12 @@ class CompareVerb {
         const Comparison comparison =
             compare_sides(open_side(text_of(a_)), open_side(text_of(b_)), experiment, threads);
         if (json_) {
-            write_json(to_json(comparison));
+            Json json = to_json(comparison);
+            if (!note_.empty()) json["note"] = note_;
+            write_json(json);
         } else {
             write_out(text_of_comparison(comparison));
+            if (!note_.empty()) write_out("note: " + note_ + "\n");
         }
         return 0;
     }
@@ -165,8 +170,16 @@ class CompareVerb {
         return 0;
     }
 
+    /// Layer by layer, or between the layers of B where it has none of A's.
+    Comparison compare_measurements(const Measurement& a, const Measurement& b, int threads) {
+        const std::string why = unlike(a, b);
+        if (why.empty()) return compare(a, b);
+        note_ = why + ": B is interpolated between its layers, noise is that of A alone";
+        return compare_between_layers(a, b, Run(threads));
+    }
+
     Comparison compare_sides(const Side& a, const Side& b, const Experiment& experiment,
-                             int threads) const {
+                             int threads) {
         Comparison comparison;
         if (a.model && b.model) {
             comparison = compare(*a.model, *b.model, experiment, threads);
@@ -179,7 +192,7 @@ class CompareVerb {
         } else if (a.model) {
             comparison = swapped(compare(*b.measurement, *a.model, threads));
         } else {
-            comparison = compare(*a.measurement, *b.measurement);
+            comparison = compare_measurements(*a.measurement, *b.measurement, threads);
         }
         // Sides carry the names the user gave them.
         comparison.name_a = text_of(a_);
@@ -190,6 +203,7 @@ class CompareVerb {
     ExperimentOptions experiment_;
     ThreadsOption threads_;
     CLI::Option *a_ = nullptr, *b_ = nullptr;
+    std::string note_;  ///< on how it was done
     bool json_ = false;
 };
 

@@ -39,9 +39,12 @@ static std::string printable(std::string_view text) {
 }
 
 void write_out(std::string_view raw) {
-    const std::string text = printable(raw);
-    const std::size_t written = std::fwrite(text.data(), 1, text.size(), stdout);
-    if (written == text.size() && std::fflush(stdout) == 0) return;
+    write_bytes(printable(raw));
+}
+
+void write_bytes(std::string_view bytes) {
+    const std::size_t written = std::fwrite(bytes.data(), 1, bytes.size(), stdout);
+    if (written == bytes.size() && std::fflush(stdout) == 0) return;
     if (errno == EPIPE) throw BrokenPipe{};
     throw Error(ErrorCode::InputOutput, std::strerror(errno), "standard output");
 }

@@ -16,6 +16,9 @@ void prepare_standard_streams();
 /// Control characters but line ends and tabs, as file names may hold, become '?'.
 void write_out(std::string_view text);
 
+/// The same for the bytes of a file, as they are.
+void write_bytes(std::string_view bytes);
+
 /// Writes to standard error; failure is ignored, there is nobody left to tell.
 /// Control characters as in write_out.
 void write_err(std::string_view text);

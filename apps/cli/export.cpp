@@ -2,6 +2,7 @@
 // asperity export: a result as files and images other programs read.
 #include "brdf_argument.h"
 #include "console.h"
+#include "file_kind.h"
 #include "help.h"
 #include "options.h"
 #include "output_path.h"
@@ -59,7 +60,7 @@ class ExportVerb {
                          "a result of asperity simulate, a model or a file of a BSDF", "");
         output_ = add_text(app, "-o,--output", "FILE | X.png | FOLDER/",
                            "a file in one of the formats, one sheet of all layers, or a folder of "
-                           "pictures",
+                           "pictures; - writes one file to standard output",
                            kOutput);
         format_ = add_text(app, "--format", "NAME[:KEY=VALUE,...]",
                            "a format and its options, see below", kOutput)
@@ -97,6 +98,8 @@ class ExportVerb {
                         "export needs -o with a name ending in .png, / or that of a format");
         }
         const std::string path = text_of(output_);
+        if (path == kStandardOutput) return write_piped();
+        refuse_picture_options(path);
         if (!wants_pictures(path)) return write_file(path);
         if (format_->count() > 0)
             throw Error(ErrorCode::Usage, "pictures have no format", "format");
@@ -122,6 +125,42 @@ class ExportVerb {
         return text + "\n";
     }
 
+    /// Standard output takes one file of a format that is named, or a sheet where none is.
+    int write_piped() const {
+        if (json_)
+            throw Error(ErrorCode::Usage, "standard output takes the file: -o FILE leaves it free",
+                        "json");
+        if (snippet_) throw Error(ErrorCode::Usage, "needs a file to stand beside", "snippet");
+        const std::string spec = text_of(format_);
+        const StandardOutputFile file(
+            spec.empty()
+                ? "png"
+                : formats_.for_writing("", spec.substr(0, spec.find(':'))).endings.front());
+        refuse_picture_options(file.path());
+        spec.empty() ? write_pictures(file.path()) : write_file(file.path());
+        file.send();
+        return 0;
+    }
+
+    /// Options of pictures are none of files.
+    void refuse_picture_options(const std::string& path) const {
+        if (wants_pictures(path)) {
+            if (decades_->count() > 0 && text_of(scale_, "log") != "log")
+                throw Error(ErrorCode::Usage, "it is of the log scale", "decades");
+            return;
+        }
+        for (const CLI::Option* option : {colour_map_, scale_, decades_, projection_, channel_})
+            if (option->count() > 0)
+                throw Error(ErrorCode::Usage, "it is for pictures: -o X.png or a folder",
+                            option->get_lnames().front());
+    }
+
+    /// Nothing is said where standard output takes the file.
+    Talk talk() const {
+        const bool piped = text_of(output_) == kStandardOutput;
+        return {quiet_ || json_ || piped, false};
+    }
+
     int write_file(const std::string& path) const {
         const std::string spec = text_of(format_);
         const std::size_t colon = spec.find(':');
@@ -136,7 +175,7 @@ class ExportVerb {
         std::vector<std::string> remarks = source.remarks();
         for (std::string& remark : format.write(source, options, path))
             remarks.push_back(std::move(remark));
-        const Talk say(quiet_ || json_, false);
+        const Talk say = talk();
         say("wrote " + path + "\n");
         if (snippet_)
             for (const std::string& name : io::write_snippets(format.name, options, path))
@@ -179,7 +218,7 @@ class ExportVerb {
             cells.detector.resolution = 64;  // of the fidelity; a model has none of its own
             return {std::shared_ptr<const Bsdf>(std::move(bsdf)), cells, threads};
         }
-        return {std::make_shared<const Measurement>(io::load_measurement(text)), threads};
+        return {std::make_shared<const Measurement>(load_result(text)), threads};
     }
 
     static Json json_of(const std::string& path, const io::BsdfFormat& format,
@@ -205,7 +244,7 @@ class ExportVerb {
         const bool folder = ending(path) != "png";
         folder ? check_output_folder(path) : check_output_file(path);
 
-        const Measurement m = io::load_measurement(text_of(file_));
+        const Measurement m = load_result(text_of(file_));
         look.channel = channel_of(m);
         std::vector<std::string> written = {path};
         if (folder) {
@@ -216,7 +255,7 @@ class ExportVerb {
         } else {
             io::write_layer_sheet(m, path, look);
         }
-        const Talk say(quiet_, false);
+        const Talk say = talk();
         for (const std::string& name : written) say("wrote " + name + "\n");
         return 0;
     }

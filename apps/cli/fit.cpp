@@ -2,9 +2,11 @@
 // asperity fit: the parameters with which models come nearest to a measurement or a file.
 #include "brdf_argument.h"
 #include "console.h"
+#include "file_kind.h"
 #include "help.h"
 #include "options.h"
 #include "output_path.h"
+#include "report.h"
 #include "report_json.h"
 #include "table.h"
 #include "verbs.h"
@@ -54,12 +56,10 @@ std::string param_name(const FittedParam& p) {
     return p.entry < 0 ? p.key : fmt::format("{}[{}]", p.key, p.entry);
 }
 
-/// "0.3012 ± 0.0004": as many digits as the error has two of.
 std::string value_text(const FittedParam& p) {
     if (p.at_end) return fmt::format("{:.4g} (end of its range)", p.value);
-    if (!(p.error > 0)) return fmt::format("{:.4g} ± ?", p.value);
-    const int digits = std::max(0, 1 - static_cast<int>(std::floor(std::log10(p.error))));
-    return fmt::format("{:.{}f} ± {:.{}f}", p.value, digits, p.error, digits);
+    if (!(p.error > 0)) return fmt::format("{:.4g}(?)", p.value);
+    return with_error(p.value, p.error);
 }
 
 std::string percent(double x) {
@@ -71,15 +71,13 @@ std::string text_of_report(const FitReport& report, const FitData& data) {
         fmt::format("{}: {} layers, {} blocks of cells, metric {}\n", data.name, data.layers.size(),
                     data.blocks.size(), fit_metric_name(report.metric));
     const bool errors = data.has_errors(), chi2 = report.metric == FitMetric::Chi2;
-    std::vector<std::string> heads = {"model", "parameters"};
+    std::vector<std::string> heads = {"model"};
     if (!chi2) heads.push_back(fit_metric_name(report.metric));
     if (errors) heads.emplace_back("chi2/dof");
     heads.insert(heads.end(), {"L1", "noise", "albedo"});
     Table table(std::move(heads));
     for (const Fit& fit : report.fits) {
-        std::vector<std::string> row = {fit.text, ""};
-        for (std::size_t k = 0; k < fit.params.size(); ++k)
-            row[1] += (k ? ", " : "") + param_name(fit.params[k]) + " " + value_text(fit.params[k]);
+        std::vector<std::string> row = {fit.text};
         if (!chi2) row.push_back(fmt::format("{:.4g}", fit.misfit));
         if (errors) row.push_back(fmt::format("{:.4g}", fit.chi2_per_dof));
         row.insert(row.end(), {percent(fit.mean_l1), percent(fit.mean_noise),
@@ -87,7 +85,19 @@ std::string text_of_report(const FitReport& report, const FitData& data) {
         table.add(std::move(row));
     }
     text += table.text() + report.verdict + "\n";
-    for (const Fit& fit : report.fits) text += "  " + fit.spec + "\n";
+    for (const Fit& fit : report.fits) {
+        text += "  " + fit.spec + "\n";
+        std::string line = "     ";
+        for (const FittedParam& p : fit.params) {
+            const std::string word = " " + param_name(p) + " " + value_text(p);
+            if (display_width(line + word) > kTableColumns) {
+                text += line + "\n";
+                line = "     ";
+            }
+            line += word + (&p == &fit.params.back() ? "" : ",");
+        }
+        text += line + "\n";
+    }
     return text;
 }
 
@@ -193,7 +203,7 @@ class FitVerb {
             throw Error(ErrorCode::Usage,
                         "a result file brings its own light and detector; these options are for "
                         "files of BSDFs");
-        const Measurement measurement = io::load_measurement(text);
+        const Measurement measurement = load_result(text);
         const double multiple = multiple_share(measurement);
         if (settings.light == FitLight::All && multiple > kNoticed)
             hint_ = fmt::format(

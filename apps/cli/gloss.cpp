@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // asperity gloss: the glossmeter of a paint shop over a surface.
 #include "console.h"
+#include "file_kind.h"
 #include "help.h"
 #include "options.h"
 #include "progress.h"
@@ -47,7 +48,7 @@ struct Interference {
 };
 
 std::string with_error(const WithError& figure) {
-    return fmt::format("{:.4g} ± {:.2g}", figure.value, figure.error);
+    return cli::with_error(figure.value, figure.error);
 }
 
 Json json_of(const std::vector<WithError>& figures) {
@@ -83,6 +84,8 @@ class GlossVerb {
 
     int run() {
         const Experiment experiment = experiment_.read();
+        if (experiment.surface.kind == kSurfaceFile)
+            require_kind(experiment.surface.file, FileKind::Heights);
         GlossSettings settings = read_settings(experiment);
         Run run(threads_.threads());
         const Talk say(quiet_, json_);

@@ -41,6 +41,7 @@ std::string wrapped(const std::string& text, std::size_t used) {
     return out + '\n';
 }
 
+/// As an option stands in a heading, "-o, --output FILE", a column of short names on the left.
 std::string option_lines(const CLI::Option& option) {
     std::string line = "  ";
     if (option.get_positional()) {
@@ -64,8 +65,7 @@ std::string verb_help(const CLI::App& app, const std::string& usage, const std::
         if (option->get_positional()) arguments += option_lines(*option);
     }
     if (!arguments.empty()) text += '\n' + arguments;
-    for (const char* group :
-         {kSurface, kModel, kMaterial, kLight, kCamera, kFacets, kDetector, kRun, kOutput}) {
+    for (const char* group : kGroups) {
         std::string lines;
         for (const CLI::Option* option : app.get_options()) {
             if (!option->get_positional() && option->get_group() == group) {
@@ -79,14 +79,22 @@ std::string verb_help(const CLI::App& app, const std::string& usage, const std::
 
 }  // namespace
 
+std::string usage_of(const CLI::App& verb) {
+    const std::string page = verb.help(), mark = "\nUsage: ";
+    const std::size_t begin = page.find(mark) + mark.size();
+    return page.substr(begin, page.find('\n', begin) - begin);
+}
+
 void set_help(CLI::App& app, const std::string& usage, const std::string& closing) {
     app.set_help_flag("-h,--help", "show this page")->group(kOutput);
+    app.footer(closing);
     app.formatter_fn([usage, closing](const CLI::App* self, std::string, CLI::AppFormatMode) {
         return verb_help(*self, usage, closing);
     });
 }
 
 void set_program_help(CLI::App& program, const std::string& closing) {
+    program.footer(closing);
     program.formatter_fn([closing](const CLI::App* self, std::string, CLI::AppFormatMode) {
         std::string text =
             fmt::format("asperity: {}\n\nUsage: asperity VERB ...\n\n", self->get_description());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // asperity info: what a result file holds.
 #include "console.h"
+#include "file_kind.h"
 #include "help.h"
 #include "options.h"
 #include "report.h"
@@ -55,7 +56,7 @@ class InfoVerb {
         if (json_ && config_) {
             throw Error(ErrorCode::Usage, "info prints either --json or --config, not both");
         }
-        const Measurement m = io::load_measurement(text_of(file_));
+        const Measurement m = load_result(text_of(file_));
         if (json_) {
             write_json(to_json(m, io::checksum(m)));
         } else {

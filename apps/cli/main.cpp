@@ -2,13 +2,11 @@
 // The program: finds the verb, runs it, and says in one line what went wrong.
 #include "console.h"
 #include "help.h"
+#include "leftovers.h"
 #include "verbs.h"
 
 #include <asperity/core/error.h>
 #include <asperity/core/version.h>
-#include <asperity/params/suggest.h>
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <new>
@@ -21,7 +19,7 @@ namespace asperity::cli {
 namespace {
 
 constexpr const char* kProgramClosing =
-    "asperity VERB --help explains a verb.\n"
+    "asperity help VERB explains a verb.\n"
     "\n"
     "Start here\n"
     "  asperity simulate --surface gaussian --alpha 0.3 --isotropic -o metal.asperity\n"
@@ -46,47 +44,6 @@ void say_error(const std::string& text) {
     write_err("asperity: error: " + one_line(text) + "\n");
 }
 
-std::vector<std::string> names_of(const std::vector<Verb>& verbs) {
-    std::vector<std::string> names;
-    for (const Verb& verb : verbs) names.push_back(verb.app->get_name());
-    return names;
-}
-
-/// Refuses what no verb or option of the verb took.
-void check_leftovers(const CLI::App& program, const std::vector<Verb>& verbs) {
-    const std::vector<CLI::App*> chosen = program.get_subcommands();
-    std::vector<std::string> leftovers = (chosen.empty() ? &program : chosen[0])->remaining();
-    // It ends the options
-    const auto mark = std::find(leftovers.begin(), leftovers.end(), "--");
-    if (mark != leftovers.end()) leftovers.erase(mark);
-    if (leftovers.empty()) {
-        if (!chosen.empty()) return;
-        throw Error(ErrorCode::Usage, fmt::format("no verb given ({}); asperity --help explains",
-                                                  fmt::join(names_of(verbs), ", ")));
-    }
-    const auto is_option = [](const std::string& word) { return word.rfind('-', 0) == 0; };
-    const auto option = std::find_if(leftovers.begin(), leftovers.end(), is_option);
-    const std::string word = option == leftovers.end() ? leftovers[0] : *option;
-    if (chosen.empty()) {
-        throw Error(ErrorCode::Usage,
-                    fmt::format("unknown verb '{}'{}", word, did_you_mean(word, names_of(verbs))));
-    }
-    std::vector<std::string> names;
-    for (const CLI::Option* known : chosen[0]->get_options()) {
-        for (const std::string& name : known->get_lnames()) names.push_back(name);
-    }
-    if (!is_option(word)) {
-        throw Error(ErrorCode::Usage, fmt::format("{} does not know what to do with '{}'",
-                                                  chosen[0]->get_name(), word));
-    }
-    const std::string typed = word.substr(0, word.find('='));
-    const std::string meant =
-        nearest(typed.substr(std::min(typed.find_first_not_of('-'), typed.size())), names);
-    throw Error(ErrorCode::Usage,
-                fmt::format("{} has no option {}{}", chosen[0]->get_name(), typed,
-                            meant.empty() ? "" : "; did you mean --" + meant + "?"));
-}
-
 /// What the parser says, in our words.
 std::string in_words(const CLI::ParseError& error) {
     const std::string text = error.what();
@@ -106,10 +63,10 @@ int run_program(int argc, char** argv) {
     program.allow_extras();
     program.require_subcommand(0, 1);
     const std::vector<Verb> verbs = {
-        add_surface(program), add_simulate(program), add_refine(program),  add_merge(program),
-        add_gloss(program),   add_info(program),     add_compare(program), add_fit(program),
-        add_render(program),  add_sheet(program),    add_export(program),  add_reference(program),
-        add_selftest(program)};
+        add_surface(program),  add_simulate(program), add_refine(program),  add_merge(program),
+        add_gloss(program),    add_info(program),     add_compare(program), add_fit(program),
+        add_render(program),   add_sheet(program),    add_export(program),  add_reference(program),
+        add_selftest(program), add_help(program)};
     for (const Verb& verb : verbs) verb.app->allow_extras();
 
     try {
@@ -124,7 +81,7 @@ int run_program(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         throw Error(ErrorCode::Usage, in_words(error));
     }
-    check_leftovers(program, verbs);
+    refuse_leftovers(program);
     const auto chosen = std::find_if(verbs.begin(), verbs.end(),
                                      [](const Verb& verb) { return verb.app->parsed(); });
     return chosen->run();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measuring.h"
 
+#include "forecast.h"
 #include "output_path.h"
 #include "progress.h"
 #include "report.h"
@@ -10,6 +11,7 @@
 #include <asperity/bsdf/spec.h>
 #include <asperity/core/error.h>
 #include <asperity/formats/atomic_file.h>
+#include <asperity/formats/bsdfs/bsdf_format.h>
 #include <asperity/formats/heights/surface_files.h>
 #include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/measure.h>
@@ -34,14 +36,22 @@ namespace {
 /// has no lobe to compare with.
 constexpr double kLeastAlpha = 1e-3;
 
-std::string default_reference(const SurfaceSettings& settings, const SurfaceStatistics& figures) {
+std::string default_reference(const Measurement& m) {
+    const SurfaceSettings& settings = m.experiment.surface;
+    const SurfaceStatistics& figures = m.surface;
     // GGX slopes have no finite mean square: the asked width is the surface's alpha.
     const double alpha = surface_uses(settings.kind, "max-slope")
                              ? std::sqrt(settings.alpha_x * settings.alpha_y)
                              : figures.rms_gradient;
     if (alpha < kLeastAlpha) return "none";
-    return fmt::format("cook-torrance:roughness={:.4g},metallic=1,albedo=1",
-                       std::min(1.0, std::sqrt(alpha)));
+    // A metal's albedo is its F0 (thesis eq. 4.4): the reflectance of the run's facets along the
+    // normal. The model has no more than three channels.
+    const Fresnel facets(m.experiment.optics);
+    std::vector<double> f0(static_cast<std::size_t>(facets.channels()));
+    facets.eval(1, f0);
+    if (f0.size() != 1 && f0.size() != 3) return "none";
+    return fmt::format("cook-torrance:roughness={:.4g},metallic=1,albedo={:.4g}",
+                       std::min(1.0, std::sqrt(alpha)), fmt::join(f0, "/"));
 }
 
 bool can_compare(const Bsdf& model, int channels) {
@@ -75,6 +85,24 @@ void require_same_goal(const Measurement& so_far, const Measurement& head, int p
                     fmt::format("it is of --part {}/{}", so_far.part, so_far.parts), path);
 }
 
+/// A result has a format of its own: another one is what export makes of it.
+void check_result_name(const std::string& path) {
+    const std::string kind = ending(path);
+    const auto refuse = [&](const std::string& then) {
+        const std::string result = std::filesystem::path(path).stem().string() + ".asperity";
+        throw Error(ErrorCode::Usage,
+                    fmt::format("a result is no .{} file: write it with -o {}, then {}", kind,
+                                result, fmt::format(fmt::runtime(then), result)),
+                    path);
+    };
+    if (kind == "png") refuse("asperity export {0} -o X.png draws it");
+    if (kind == "gsf") refuse("asperity surface makes heights");
+    const io::BsdfFormats formats;
+    for (const io::BsdfFormat& format : formats.rows())
+        if (format.write && std::count(format.endings.begin(), format.endings.end(), kind) > 0)
+            refuse("asperity export {0} -o X." + kind);
+}
+
 }  // namespace
 
 void Measuring::add_output(CLI::App& app, const std::string& otherwise) {
@@ -83,7 +111,7 @@ void Measuring::add_output(CLI::App& app, const std::string& otherwise) {
             ->default_str(otherwise);
     reference_ = add_text(app, "--reference", "SPEC|none",
                           "model for the L1 column, as compare takes it", kOutput)
-                     ->default_str("Cook-Torrance with roughness^2 = alpha");
+                     ->default_str("Cook-Torrance with roughness^2 = alpha and the facets' F0");
     app.add_flag("--json", json_, "print one JSON object, as info --json does")->group(kOutput);
     app.add_flag("--quiet", quiet_, "no progress, no table")->group(kOutput);
 }
@@ -108,6 +136,16 @@ double Measuring::checkpoint_seconds() const {
     return seconds;
 }
 
+void Measuring::check_output() const {
+    if (output() != kStandardOutput) {
+        check_result_name(output());
+        return check_output_file(output());
+    }
+    if (json_)
+        throw Error(ErrorCode::Usage, "standard output takes the result: -o FILE leaves it free",
+                    "json");
+}
+
 void Measuring::check(const Experiment& experiment, const std::string& path) const {
     validate(experiment);
     const Fresnel checked(experiment.optics);
@@ -120,15 +158,18 @@ void Measuring::check(const Experiment& experiment, const std::string& path) con
                                     checked.channels()),
                         "reference");
     }
-    if (path.empty()) {
-        if (has_output()) check_output_file(path);
-        if (resume_) throw Error(ErrorCode::Usage, "needs -o FILE to go on from", "resume");
-        if (checkpoint_->count() > 0)
-            throw Error(ErrorCode::Usage, "needs -o FILE beside which it is kept", "checkpoint");
+    if (has_output()) {
+        check_output();
+    } else if (!path.empty()) {
+        check_output_file(path);
+    }
+    if (!path.empty() && path != kStandardOutput) {
+        checkpoint_seconds();
         return;
     }
-    checkpoint_seconds();
-    check_output_file(path);
+    if (resume_) throw Error(ErrorCode::Usage, "needs -o FILE to go on from", "resume");
+    if (checkpoint_->count() > 0)
+        throw Error(ErrorCode::Usage, "needs -o FILE beside which it is kept", "checkpoint");
 }
 
 std::optional<Measurement> Measuring::left_behind(const Measurement& head, const std::string& path,
@@ -149,6 +190,7 @@ std::optional<Measurement> Measuring::left_behind(const Measurement& head, const
 }
 
 void Measuring::keep(const Measurement& so_far, const std::string& path) {
+    if (path == kStandardOutput) return;
     // Work goes on without one, but not without a word
     try {
         io::save_measurement(so_far, checkpoint_of(path));
@@ -165,7 +207,8 @@ std::chrono::milliseconds Measuring::checkpoint_period() const {
 
 int Measuring::measure(Task task, const std::string& path) {
     Run run(threads_.threads());
-    const Talk say(quiet_, json_);
+    const bool piped = path == kStandardOutput;
+    const Talk say(quiet_, json_ || piped);
     const StopOnSignal stop(run);
     ProgressBar progress(run, quiet_);
 
@@ -179,18 +222,21 @@ int Measuring::measure(Task task, const std::string& path) {
         head.parts = task.parts;
         if (auto found = left_behind(head, path, say)) scope.so_far = std::move(found);
     }
+    const bool fresh = !scope.so_far && task.parts == 1;
     MeasureListener listener;
     listener.begun = [&](const Measurement& begun) {
         progress.clear();
         describe(say, begun, surface);
+        if (!quiet_ && fresh)
+            say(forecast(surface, task.experiment, run).warning(task.experiment, surface));
     };
-    if (!path.empty() && checkpoint_seconds() > 0) {
+    if (!path.empty() && !piped && checkpoint_seconds() > 0) {
         listener.checkpoint_period = checkpoint_period();
         listener.checkpoint = [&](const Measurement& so_far) { keep(so_far, path); };
     }
     // A run that refines until it is accurate gives each layer the rays it needs.
-    if (task.experiment.run.until == 0 && !scope.so_far && task.parts == 1)
-        progress.count_layers(incidences(task.experiment.illumination).size());
+    if (task.experiment.run.until == 0 && fresh)
+        progress.name_layers(incidences(task.experiment.illumination));
     const Measurement m =
         asperity::measure(surface, task.experiment, run, listener, std::move(scope));
     progress.clear();
@@ -205,6 +251,12 @@ void Measuring::refuse_nothing() {
 }
 
 void Measuring::finish(const Measurement& m, const std::string& path, int threads) const {
+    if (path == kStandardOutput) {
+        const StandardOutputFile file("asperity");
+        const std::string checksum = io::save_measurement(m, file.path());
+        tell(Talk(quiet_, true), m, checksum, "", threads);
+        return file.send();
+    }
     const std::string checksum = path.empty() ? io::checksum(m) : io::save_measurement(m, path);
     if (!path.empty()) io::remove_file(checkpoint_of(path));
     tell(Talk(quiet_, json_), m, checksum, path, threads);
@@ -230,18 +282,17 @@ void Measuring::tell(const Talk& say, const Measurement& m, const std::string& c
     }
     if (quiet_) return;
     std::string reference = text_of(reference_);
-    if (reference.empty()) reference = default_reference(m.experiment.surface, m.surface);
+    if (reference.empty()) reference = default_reference(m);
     // A share of the batches is no lobe to compare
     if (m.parts > 1) reference = "none";
     std::optional<Comparison> comparison;
     if (reference != "none") {
         const auto model = parse_brdf_spec(reference);
-        // The default is one of colours, which other channels have no use for
         if (can_compare(*model, m.channels())) comparison = compare(m, *model, threads);
     }
     say(layer_table(m, comparison));
     if (comparison)
-        say("L1: distance to " + reference + "; noise: what it would be from the errors alone\n");
+        say("L1: distance to " + reference + ";\nnoise: what it would be from the errors alone\n");
     say(closing_lines(m));
     if (!path.empty()) say(fmt::format("wrote {}{}\n", path, m.stopped ? " (partial)" : ""));
     say("checksum " + checksum + "\n");

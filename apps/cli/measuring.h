@@ -26,6 +26,8 @@ class Measuring {
     bool has_output() const { return output_->count() > 0; }
     std::string output() const { return text_of(output_); }
 
+    /// Refuses an output that no result can be written to.
+    void check_output() const;
     /// Refuses what would fail only after the work is done. `path` is empty if nothing is written.
     void check(const Experiment& experiment, const std::string& path) const;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // asperity merge: the parts of a measurement, made on many machines, become one result.
+#include "file_kind.h"
 #include "help.h"
 #include "measuring.h"
 #include "options.h"
@@ -43,9 +44,9 @@ class MergeVerb {
     int run() {
         if (files_.empty()) throw Error(ErrorCode::Usage, "merge needs the files of the parts");
         if (!measuring_.has_output()) throw Error(ErrorCode::Usage, "merge needs -o FILE");
-        check_output_file(measuring_.output());
+        measuring_.check_output();
         Merge merge;
-        for (const std::string& file : files_) merge.add(io::load_measurement(file), file);
+        for (const std::string& file : files_) merge.add(load_result(file), file);
         measuring_.finish(merge.finish(), measuring_.output(), Run().threads());
         return 0;
     }

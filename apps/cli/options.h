@@ -22,6 +22,9 @@ inline constexpr const char* kDetector = "Detector";
 inline constexpr const char* kRun = "Run";
 inline constexpr const char* kOutput = "Output";
 
+inline constexpr const char* kGroups[] = {kSurface, kModel,    kMaterial, kLight, kCamera,
+                                          kFacets,  kDetector, kRun,      kOutput};
+
 /// Adds an option that takes one value, a text; the last of several wins.
 CLI::Option* add_text(CLI::App& app, const std::string& name, const std::string& metavar,
                       const std::string& help, const std::string& group);

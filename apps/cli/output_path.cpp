@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "output_path.h"
 
+#include "console.h"
+
 #include <asperity/core/error.h>
 
 #include <unistd.h>
@@ -10,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 
 namespace asperity::cli {
@@ -67,6 +70,32 @@ void check_output_folder(const std::string& path) {
     } else {
         check_writable(name, path);
     }
+}
+
+StandardOutputFile::StandardOutputFile(const std::string& ending) {
+    if (isatty(STDOUT_FILENO) == 1)
+        throw Error(ErrorCode::Usage, "a terminal shows no such file; write it into a pipe",
+                    "standard output");
+    std::error_code failure;
+    folder_ = (fs::temp_directory_path(failure) / "asperity-XXXXXX").string();
+    if (failure || mkdtemp(folder_.data()) == nullptr)
+        throw Error(ErrorCode::InputOutput, "no place for a temporary file", folder_);
+    path_ = folder_ + "/output." + ending;
+}
+
+StandardOutputFile::~StandardOutputFile() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+}
+
+void StandardOutputFile::send() const {
+    std::ifstream file(path_, std::ios::binary);
+    std::string bytes(std::size_t{1} << 16, '\0');
+    while (file) {
+        file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        if (file.gcount() > 0) write_bytes({bytes.data(), static_cast<std::size_t>(file.gcount())});
+    }
+    if (!file.eof()) throw Error(ErrorCode::InputOutput, "cannot be read", path_);
 }
 
 std::string ending(const std::string& path) {

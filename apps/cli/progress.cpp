@@ -3,6 +3,7 @@
 
 #include "console.h"
 
+#include <asperity/core/directions.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -50,9 +51,12 @@ std::string ProgressBar::line_of(const Progress& p) const {
     // Only light is counted in rays and layers, and only pictures in samples.
     const bool light = p.stage == "tracing", picture = p.stage == "rendering";
     std::string line = p.stage;
-    if (light && layers_ > 0) {
-        const auto done = static_cast<std::size_t>(share * static_cast<double>(layers_));
-        line += fmt::format(" layer {} of {}", std::min(done + 1, layers_), layers_);
+    if (light && !layers_.empty()) {
+        const auto done = static_cast<std::size_t>(share * static_cast<double>(layers_.size()));
+        const std::size_t under_way = std::min(done, layers_.size() - 1);
+        const Incidence& layer = layers_[under_way];
+        line += fmt::format(" layer {} at {:.4g}° ({} of {})", layer.number, degrees(layer.theta),
+                            under_way + 1, layers_.size());
     }
     line += fmt::format(" [{}{}] {:3.0f} %", std::string(filled, '#'),
                         std::string(kBarWidth - filled, '.'), 100 * share);

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <asperity/core/run.h>
+#include <asperity/detector/illumination.h>
 
 #include <cstddef>
 #include <mutex>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace asperity::cli {
 
@@ -20,8 +23,8 @@ class ProgressBar {
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
-    /// Names the layer under way, of `layers` that take as many rays each.
-    void count_layers(std::size_t layers) { layers_ = layers; }
+    /// Names the layer under way, of those that take as many rays each, in this order.
+    void name_layers(std::vector<Incidence> layers) { layers_ = std::move(layers); }
 
     /// Takes the line off the terminal, so that other text may follow.
     void clear();
@@ -33,7 +36,7 @@ class ProgressBar {
     Run& run_;
     std::mutex mutex_;  ///< progress may come from any thread
     bool terminal_;
-    std::size_t layers_ = 0;  ///< 0: not known
+    std::vector<Incidence> layers_;  ///< empty: not known
     bool drawn_ = false;
     std::string stage_;
     int quarters_ = 0;         ///< of this stage that were told

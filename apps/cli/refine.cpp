@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // asperity refine: more rays for a result that is there, until it is as accurate as asked.
+#include "file_kind.h"
 #include "help.h"
 #include "measuring.h"
 #include "options.h"
@@ -49,7 +50,7 @@ class RefineVerb {
         const std::string file = text_of(file_);
         const std::string path = measuring_.has_output() ? measuring_.output() : file;
         Measuring::Task task;
-        task.so_far = io::load_measurement(file);
+        task.so_far = load_result(file);
         if (task.so_far->parts > 1)
             throw Error(ErrorCode::InvalidInput,
                         fmt::format("it is part {}/{} of a measurement: merge the parts first",

@@ -16,6 +16,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -46,7 +47,9 @@ class RenderVerb {
         threads_.add_to(app);
         output_ =
             add_text(app, "-o,--output", "X.png | X.exr",
-                     "the picture: for screens, or linear; may be given more than once", kOutput)
+                     "the picture: for screens, or linear; may be given more than once; - writes "
+                     "a PNG to standard output",
+                     kOutput)
                 ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
         app.add_flag("--json", json_, "print one JSON object")->group(kOutput);
         app.add_flag("--quiet", quiet_, "no progress, no report")->group(kOutput);
@@ -63,7 +66,7 @@ class RenderVerb {
         check_outputs();
 
         Run run(threads_.threads());
-        const Talk say(quiet_, json_);
+        const Talk say(quiet_, json_ || piped());
         const StopOnSignal stop(run);
         ProgressBar progress(run, quiet_);
 
@@ -95,10 +98,20 @@ class RenderVerb {
         if (output_->count() == 0)
             throw Error(ErrorCode::Usage, "render needs -o with a name ending in .png or .exr");
         for (const std::string& path : output_->results()) {
+            if (path == kStandardOutput) continue;
             if (ending(path) != "png" && ending(path) != "exr")
                 throw Error(ErrorCode::Usage, "the name must end in .png or .exr", path);
             check_output_file(path);
         }
+        if (piped() && json_)
+            throw Error(ErrorCode::Usage,
+                        "standard output takes the picture: -o FILE leaves it free", "json");
+    }
+
+    /// Whether the picture, a PNG, goes to standard output.
+    bool piped() const {
+        const auto paths = output_->results();
+        return std::find(paths.begin(), paths.end(), kStandardOutput) != paths.end();
     }
 
     void write(Picture& picture, const ToneMapping& tone, const io::Provenance& origin) const {
@@ -106,6 +119,12 @@ class RenderVerb {
         for (const auto& more : {outcome_provenance(picture), origin})
             provenance.insert(provenance.end(), more.begin(), more.end());
         for (const std::string& path : output_->results()) {
+            if (path == kStandardOutput) {
+                const StandardOutputFile file("png");
+                io::write_render_png(picture.renderer.film(), tone, provenance, file.path());
+                file.send();
+                continue;
+            }
             if (ending(path) == "exr") {
                 io::write_render_exr(picture.renderer.film(), provenance, path);
             } else {

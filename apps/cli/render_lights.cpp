@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_lights.h"
 
+#include "file_kind.h"
+
 #include <asperity/core/error.h>
 #include <asperity/formats/images/image_reader.h>
+#include <asperity/params/suggest.h>
 #include <asperity/render/environment_map.h>
 #include <asperity/render/sky.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace asperity::cli {
 
@@ -43,8 +47,13 @@ std::string kind_of(const std::string& text) {
     if (std::find(kinds.begin(), kinds.end(), text) != kinds.end()) return text;
     if (text.rfind(kEnvironment, 0) == 0 && text.size() > std::string(kEnvironment).size())
         return "env";
-    throw Error(ErrorCode::Usage,
-                fmt::format("'{}' is none of {}, env:FILE", text, fmt::join(kinds, ", ")), "light");
+    std::error_code ignored;
+    throw Error(
+        ErrorCode::Usage,
+        fmt::format("'{}' is none of {}, env:FILE{}", text, fmt::join(kinds, ", "),
+                    std::filesystem::exists(text, ignored) ? "; did you mean env:" + text + "?"
+                                                           : did_you_mean(text, kinds)),
+        "light");
 }
 
 double intensity_or(const RenderOptions& options, double otherwise) {
@@ -78,6 +87,7 @@ std::unique_ptr<Light> environment_light(const RenderOptions& options, const std
     s.rotation_deg = options.value("light-rotation").number(kAnyNumber);
     s.scale = options.value("light-scale").number(kAboveZero);
     s.name = text.substr(std::string(kEnvironment).size());
+    require_kind(s.name, FileKind::Picture);
     return make_environment_light(io::read_image(s.name), s);
 }
 

@@ -2,6 +2,7 @@
 #include "render_materials.h"
 
 #include "brdf_argument.h"
+#include "file_kind.h"
 
 #include <asperity/bsdf/spec.h>
 #include <asperity/core/error.h>
@@ -21,7 +22,7 @@ constexpr std::size_t kMostBrdfs = 2;  ///< left and right of the split
 std::shared_ptr<const Bsdf> load_brdf(const std::string& text, Run& run, io::Provenance& origin) {
     if (is_brdf_spec(text)) return parse_brdf_spec(text);
     if (const auto file = open_brdf(text, io::BsdfFormats())) return bake_brdf(*file, run);
-    const Measurement m = io::load_measurement(text);
+    const Measurement m = load_result(text);
     if (m.channels() != 1 && m.channels() != 3) {
         throw Error(ErrorCode::InvalidInput,
                     fmt::format("has {} channels, a picture needs 1 (grey) or 3 (red, green, "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_options.h"
 
+#include "file_kind.h"
 #include "options.h"
 
 #include <asperity/core/error.h>
@@ -20,7 +21,9 @@ namespace {
 /// brackets is only shown: what happens without the option is decided elsewhere.
 constexpr OptionInfo kRenderOptions[] = {
     {"model", "NAME|FILE", kModel,
-     "sphere, plane, knot, ball, bowl, or a file (.obj .ply .stl .gltf .glb .3ds)", "ball"},
+     "sphere, plane, knot, ball, bowl, none (the light alone), or a file (.obj .ply .stl .gltf "
+     ".glb .3ds)",
+     "ball"},
     {"normals", "NAME", kModel, "given (smooth where the model has none), smooth or facet",
      "given"},
     {"crease", "D", kModel, "smooth normals: facets that meet at more degrees keep an edge", "180"},
@@ -58,6 +61,10 @@ constexpr OptionInfo kRenderOptions[] = {
     {"turbidity", "T", kLight, "sky: from 2, very clear, to 10, hazy", "3"},
     {"background", "lights|R/G/B", kLight, "what is seen behind the model", "lights"},
 
+    {"camera", "NAME", kCamera,
+     "perspective, or panorama: all directions as a latitude-longitude map that --light env:FILE "
+     "takes, twice as wide as high",
+     "perspective"},
     {"camera-azimuth", "D", kCamera, "goes round the target: 0 in front, 90 to the right", "0"},
     {"camera-elevation", "D", kCamera, "above the target, -89.9 to 89.9", "0"},
     {"camera-distance", "D", kCamera, "from the target; models have radius 1", "3.5"},
@@ -87,6 +94,36 @@ constexpr OptionInfo kRenderOptions[] = {
     {"transfer", "NAME", kOutput, "PNG: srgb, gamma22 or linear", "srgb"},
 };
 
+constexpr Names<Integrator, 2> kIntegrators = {
+    {{"path", Integrator::Path}, {"stratified", Integrator::Stratified}}};
+constexpr Names<DirectLight, 3> kDirectLights = {{{"mis", DirectLight::Mis},
+                                                  {"light", DirectLight::LightOnly},
+                                                  {"brdf", DirectLight::BrdfOnly}}};
+constexpr Names<PixelFilter, 3> kFilters = {
+    {{"tent", PixelFilter::Tent}, {"box", PixelFilter::Box}, {"centre", PixelFilter::Centre}}};
+constexpr Names<ToneMapping, 4> kToneMappings = {
+    {{"none", ToneMapping{}},
+     {"reinhard", ToneMapping{0, ToneCurve::Reinhard, Transfer::Srgb}},
+     {"aces", ToneMapping{0, ToneCurve::Aces, Transfer::Srgb}},
+     {"thesis", kThesisLook}}};
+constexpr Names<Transfer, 3> kTransfers = {
+    {{"srgb", Transfer::Srgb}, {"gamma22", Transfer::Gamma22}, {"linear", Transfer::Linear}}};
+constexpr Names<NormalStyle, 3> kNormalStyles = {{{"given", NormalStyle::AsGiven},
+                                                  {"smooth", NormalStyle::Smooth},
+                                                  {"facet", NormalStyle::Facet}}};
+/// Whether it sees all round.
+constexpr Names<bool, 2> kCameras = {{{"perspective", false}, {"panorama", true}}};
+
+template <typename Value, std::size_t N>
+std::vector<std::string> words_of(const Names<Value, N>& names) {
+    std::vector<std::string> words;
+    for (const auto& [name, value] : names) words.emplace_back(name);
+    return words;
+}
+
+/// Of --model: nothing but light.
+constexpr std::string_view kNoModel = "none";
+
 /// What tells most of a picture's look: part of its provenance even when it was not given.
 constexpr const char* kAlwaysTold[] = {"model", "brdf", "light",      "width", "height",
                                        "depth", "seed", "integrator", "direct"};
@@ -109,6 +146,21 @@ Rgb read_colour(const OptionValue& value, std::string_view text, const Range& ra
 }
 
 }  // namespace
+
+std::vector<std::string> render_names(const std::string& option) {
+    if (option == "integrator") return words_of(kIntegrators);
+    if (option == "direct") return words_of(kDirectLights);
+    if (option == "filter") return words_of(kFilters);
+    if (option == "tonemap") return words_of(kToneMappings);
+    if (option == "transfer") return words_of(kTransfers);
+    if (option == "normals") return words_of(kNormalStyles);
+    if (option == "camera") return words_of(kCameras);
+    if (option == "light") return {"point", "directional", "constant", "sky", "env:"};
+    if (option != "model") return {};
+    std::vector<std::string> models = {std::string(kNoModel)};
+    for (const BuiltinModel& model : builtin_models()) models.push_back(model.name);
+    return models;
+}
 
 void RenderOptions::add_to(CLI::App& app, std::initializer_list<const char*> only) {
     for (const OptionInfo& info : kRenderOptions) {
@@ -204,15 +256,9 @@ RenderSettings render_settings(const RenderOptions& options) {
     if (options.given("spp"))
         s.spp = static_cast<std::uint32_t>(options.value("spp").natural({1, kMostSamples}));
     s.depth = options.value("depth").integer(1, 1000);
-    s.integrator = options.value("integrator")
-                       .choice(Names<Integrator, 2>{
-                           {{"path", Integrator::Path}, {"stratified", Integrator::Stratified}}});
-    s.direct =
-        options.value("direct").choice(Names<DirectLight, 3>{{{"mis", DirectLight::Mis},
-                                                              {"light", DirectLight::LightOnly},
-                                                              {"brdf", DirectLight::BrdfOnly}}});
-    s.filter = options.value("filter").choice(Names<PixelFilter, 3>{
-        {{"tent", PixelFilter::Tent}, {"box", PixelFilter::Box}, {"centre", PixelFilter::Centre}}});
+    s.integrator = options.value("integrator").choice(kIntegrators);
+    s.direct = options.value("direct").choice(kDirectLights);
+    s.filter = options.value("filter").choice(kFilters);
     s.strata = options.value("strata").integer(1, 1024);
     if (options.given("strata") && s.integrator != Integrator::Stratified)
         options.value("strata").refuse("goes with --integrator stratified");
@@ -225,22 +271,40 @@ RenderSettings render_settings(const RenderOptions& options) {
 
 ToneMapping tone_mapping(const RenderOptions& options) {
     constexpr Range kStops = {-100, 100};
-    ToneMapping mapping = options.value("tonemap").choice(
-        Names<ToneMapping, 4>{{{"none", ToneMapping{}},
-                               {"reinhard", ToneMapping{0, ToneCurve::Reinhard, Transfer::Srgb}},
-                               {"aces", ToneMapping{0, ToneCurve::Aces, Transfer::Srgb}},
-                               {"thesis", kThesisLook}}});
+    ToneMapping mapping = options.value("tonemap").choice(kToneMappings);
     mapping.exposure = options.value("exposure").number(kStops);
     if (options.given("transfer")) {
-        mapping.transfer = options.value("transfer")
-                               .choice(Names<Transfer, 3>{{{"srgb", Transfer::Srgb},
-                                                           {"gamma22", Transfer::Gamma22},
-                                                           {"linear", Transfer::Linear}}});
+        mapping.transfer = options.value("transfer").choice(kTransfers);
     }
     return mapping;
 }
 
+namespace {
+
+/// What is seen all round from one place, by default the middle of the world.
+Camera panorama(const RenderOptions& options) {
+    for (const char* name :
+         {"camera-azimuth", "camera-elevation", "camera-distance", "camera-target", "camera-fov"})
+        if (options.given(name))
+            throw Error(ErrorCode::Usage,
+                        "a panorama sees all directions: it has a --camera-position alone", name);
+    const RenderSettings size = render_settings(options);
+    if (size.width != 2 * size.height)
+        throw Error(ErrorCode::Usage,
+                    fmt::format("a panorama is twice as wide as high: --width {} --height {}",
+                                size.width, (size.width + 1) / 2),
+                    "camera");
+    Camera camera;
+    camera.panorama = true;
+    camera.position =
+        options.given("camera-position") ? options.vector("camera-position") : Vec3{0, 0, 0};
+    return camera;
+}
+
+}  // namespace
+
 Camera camera(const RenderOptions& options) {
+    if (options.value("camera").choice(kCameras)) return panorama(options);
     constexpr Range kFov = {1, 170};
     constexpr Range kElevation = {-89.9, 89.9};
     constexpr Range kDistance = {0.01, 1000};
@@ -264,13 +328,16 @@ Camera camera(const RenderOptions& options) {
 
 LoadedModel load_model(const RenderOptions& options) {
     constexpr Range kCrease = {0, 180};
-    const auto style =
-        options.value("normals").choice(Names<NormalStyle, 3>{{{"given", NormalStyle::AsGiven},
-                                                               {"smooth", NormalStyle::Smooth},
-                                                               {"facet", NormalStyle::Facet}}});
+    const NormalStyle style = options.value("normals").choice(kNormalStyles);
     const double crease = options.value("crease").number(kCrease);
     const std::string name(options.value("model").text());
     LoadedModel loaded;
+    if (name == kNoModel) {
+        for (const char* given : {"normals", "crease", "no-fit", "brdf", "floor"})
+            if (options.given(given)) throw Error(ErrorCode::Usage, "there is no model", given);
+        loaded.model.name = "none";
+        return loaded;
+    }
     if (is_builtin_model(name)) {
         if (options.given("no-fit"))
             throw Error(ErrorCode::Usage, "is for models from files", "no-fit");
@@ -280,6 +347,7 @@ LoadedModel load_model(const RenderOptions& options) {
         }
     } else {
         if (!io::is_model_file(name)) make_builtin_model(name);  // says which names there are
+        require_kind(name, FileKind::Model);
         io::ModelReadSettings settings;
         settings.normals = style;
         settings.crease_deg = crease;

@@ -20,6 +20,9 @@
 
 namespace asperity::cli {
 
+/// The names that an option of a picture takes; none where it takes something else.
+std::vector<std::string> render_names(const std::string& option);
+
 /// The options of `asperity render` that describe the picture, all from one table with their
 /// defaults as texts: what help shows is what happens.
 class RenderOptions {

@@ -27,22 +27,11 @@ double channel_mean(int channels, const std::function<double(int)>& figure) {
 
 /// A share of the launched energy in percent.
 std::string percent(double share) {
-    return fmt::format("{:.2f} %", 100 * share);
+    return fmt::format("{:.2f}", 100 * share);
 }
 
 std::string angle(double theta) {
     return fmt::format("{:.4g}°", degrees(theta));
-}
-
-/// As many digits as the error has two of, five at least.
-std::string with_error(double value, double error) {
-    constexpr int kLeast = 5, kMost = 17;
-    if (error == 0) return fmt::format("{:.{}f} exact", value, kLeast);
-    const int digits =
-        std::isfinite(error)
-            ? std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), kLeast, kMost)
-            : kLeast;
-    return fmt::format("{:.{}f} ± {:.{}f}", value, digits, error, digits);
 }
 
 /// Four decimals, or what is left of a smaller figure.
@@ -58,8 +47,8 @@ const LayerComparison* comparison_of(const Layer& layer, const Comparison& compa
     return found == comparison.layers.end() ? nullptr : &*found;
 }
 
-/// Up to three channels get an albedo column each; more are averaged.
-constexpr int kChannelColumns = 3;
+/// Up to three channels get a row each; more are averaged.
+constexpr int kChannelRows = 3;
 
 class LayerTable {
   public:
@@ -68,46 +57,68 @@ class LayerTable {
           comparison_(comparison),
           phi_(std::any_of(m_.layers.begin(), m_.layers.end(),
                            [](const Layer& layer) { return layer.phi_i != 0; })),
-          edge_(std::any_of(m_.layers.begin(), m_.layers.end(), [](const Layer& layer) {
-              return std::any_of(layer.edge.begin(), layer.edge.end(),
-                                 [](auto e) { return e > 0; });
-          })) {}
+          edge_(std::any_of(m_.layers.begin(), m_.layers.end(),
+                            [](const Layer& layer) {
+                                return std::any_of(layer.edge.begin(), layer.edge.end(),
+                                                   [](auto e) { return e > 0; });
+                            })),
+          bands_(m_.channels() > 1 && m_.channels() <= kChannelRows) {}
+
+    bool has_edge_loss() const { return edge_; }
 
     std::string text() const {
-        Table table(heads());
-        for (const Layer& layer : m_.layers) table.add(row(layer));
+        const std::vector<std::string> heads = this->heads();
+        Table table(heads, 2 + (phi_ ? 1 : 0));
+        for (const Layer& layer : m_.layers) {
+            for (int c = 0; c < (bands_ ? m_.channels() : 1); ++c) {
+                std::vector<std::string> cells = row(layer, c);
+                cells.resize(heads.size());
+                table.add(std::move(cells));
+            }
+        }
         return table.text();
     }
 
   private:
     std::vector<std::string> heads() const {
-        std::vector<std::string> heads = {"layer", "theta_i"};
-        if (phi_) heads.push_back("phi_i");
-        if (m_.channels() == 1 || m_.channels() > kChannelColumns) {
-            heads.push_back("albedo ± std. error");
-        } else {
-            for (const std::string& name : m_.channel_names) heads.push_back("albedo " + name);
-        }
-        heads.insert(heads.end(), {"1 bounce", "2 bounces", "3+", "absorbed", "truncated"});
-        if (edge_) heads.push_back("edge loss");
+        std::vector<std::string> heads = {"layer", "theta"};
+        if (phi_) heads.emplace_back("phi");
+        if (bands_) heads.emplace_back("band");
+        heads.insert(heads.end(),
+                     {"albedo", "1 bounce", "2 bounces", "3+", "absorbed", "truncated"});
+        if (edge_) heads.emplace_back("edge loss");
         if (comparison_) heads.insert(heads.end(), {"L1", "noise"});
         return heads;
     }
 
-    std::vector<std::string> row(const Layer& layer) const {
+    /// Of a channel, or of the mean over all where they have no rows of their own.
+    std::vector<std::string> row(const Layer& layer, int channel) const {
         std::vector<std::string> cells = {std::to_string(layer.number), angle(layer.theta_i)};
         if (phi_) cells.push_back(angle(layer.phi_i));
-        add_albedo(layer, cells);
-        add_bounces(layer, cells);
+        if (bands_) cells.push_back(m_.channel_names[static_cast<std::size_t>(channel)]);
+        const auto figure = [&](const std::function<double(int)>& of) {
+            return bands_ ? of(channel) : channel_mean(m_.channels(), of);
+        };
+        // Channels share their paths, so errors may all have one sign: their mean bounds it.
+        cells.push_back(with_error(
+            figure([&](int c) { return m_.albedo(layer, c); }),
+            figure([&](int c) { return layer.stderr_albedo[static_cast<std::size_t>(c)]; })));
+        const auto order = [&](int k) {
+            if (k >= m_.bounces()) return 0.0;
+            return figure([&](int c) { return m_.albedo(layer, k, c); });
+        };
+        double rest = 0;
+        for (int k = 2; k < m_.bounces(); ++k) rest += order(k);
+        for (const double part : {order(0), order(1), rest}) cells.push_back(percent(part));
         const auto share = [&](const std::vector<std::uint64_t>& energy) {
-            return percent(channel_mean(m_.channels(), [&](int c) {
+            return percent(figure([&](int c) {
                 return energy_fraction(energy[static_cast<std::size_t>(c)], layer.rays);
             }));
         };
         cells.push_back(share(layer.absorbed));
         cells.push_back(share(layer.truncated));
         if (edge_) cells.push_back(share(layer.edge));
-        if (comparison_) {
+        if (comparison_ && channel == 0) {
             const LayerComparison* found = comparison_of(layer, *comparison_);
             cells.push_back(found ? distance(found->l1) : "-");
             cells.push_back(found ? distance(found->l1_noise) : "-");
@@ -115,38 +126,9 @@ class LayerTable {
         return cells;
     }
 
-    void add_albedo(const Layer& layer, std::vector<std::string>& cells) const {
-        const auto albedo = [&](int c) { return m_.albedo(layer, c); };
-        const auto error = [&](int c) { return layer.stderr_albedo[static_cast<std::size_t>(c)]; };
-        if (m_.channels() > kChannelColumns) {
-            // Channels share their paths, so errors may all have one sign: their mean bounds it.
-            cells.push_back(with_error(channel_mean(m_.channels(), albedo),
-                                       channel_mean(m_.channels(), error)));
-        } else {
-            for (int c = 0; c < m_.channels(); ++c) {
-                cells.push_back(with_error(albedo(c), error(c)));
-            }
-        }
-    }
-
-    /// Shares of the energy that escapes after one, two, and more reflections.
-    void add_bounces(const Layer& layer, std::vector<std::string>& cells) const {
-        const auto order = [&](int k) {
-            return k < m_.bounces()
-                       ? channel_mean(m_.channels(), [&](int c) { return m_.albedo(layer, k, c); })
-                       : 0.0;
-        };
-        double rest = 0;
-        for (int k = 2; k < m_.bounces(); ++k) rest += order(k);
-        const double all = order(0) + order(1) + rest;
-        for (double part : {order(0), order(1), rest}) {
-            cells.push_back(all > 0 ? percent(part / all) : "-");
-        }
-    }
-
     const Measurement& m_;
     const std::optional<Comparison>& comparison_;
-    bool phi_, edge_;
+    bool phi_, edge_, bands_;
 };
 
 }  // namespace
@@ -180,18 +162,33 @@ std::string tiling_line(const SurfaceSettings& settings, const Heightfield& surf
     return surface.tiling + (is_default ? " (the default of --tiling)" : " (--tiling)");
 }
 
+std::string with_error(double value, double error) {
+    constexpr int kLeast = 0, kMost = 17, kOfExact = 5;
+    if (error == 0) return fmt::format("{:.{}f} exact", value, kOfExact);
+    if (!std::isfinite(error)) return fmt::format("{:.{}f}(?)", value, kOfExact);
+    // Two digits of the error, counted after it is rounded to them: 0.0996 is 0.10.
+    const std::string rounded = fmt::format("{:.1e}", error);
+    const int exponent = std::stoi(rounded.substr(rounded.find('e') + 1));
+    const int digits = std::clamp(1 - exponent, kLeast, kMost);
+    return fmt::format("{:.{}f}({:.0f})", value, digits, error * std::pow(10, digits));
+}
+
 std::string layer_table(const Measurement& measurement,
                         const std::optional<Comparison>& comparison) {
-    return LayerTable(measurement, comparison).text();
+    const LayerTable table(measurement, comparison);
+    std::string text = table.text() + "1 bounce, 2 bounces, 3+, absorbed, truncated" +
+                       (table.has_edge_loss() ? ", edge loss" : "") +
+                       ": % of the light that\ncomes in, together all of it; (12): standard error "
+                       "of the last digits\n";
+    if (measurement.channels() > kChannelRows)
+        text += fmt::format("all figures are means over {} channels\n", measurement.channels());
+    else if (measurement.channels() > 1 && comparison)
+        text += "L1 and noise are means over the bands\n";
+    return text;
 }
 
 std::string closing_lines(const Measurement& m) {
     std::string text;
-    if (m.channels() > 1) {
-        text += m.channels() > kChannelColumns
-                    ? fmt::format("all figures are means over {} channels\n", m.channels())
-                    : "shares are means over the channels\n";
-    }
     text += fmt::format("{} rays, {:.2f} s, {}rays/s, {} threads\n", launched_total(m),
                         m.trace_seconds, short_number(rays_per_second(m)), m.threads);
     for (const std::string& note : m.notes) text += "note: " + note + "\n";

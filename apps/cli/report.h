@@ -22,7 +22,12 @@ std::string tiling_line(const SurfaceSettings& settings, const Heightfield& surf
 /// The word the command line uses for a kind, "gaussian"; a file's name.
 std::string kind_name(const SurfaceSettings& settings);
 
-/// The table of a measurement, a row per layer. `comparison`, when given, adds the columns of L1
+/// "0.93060(12)": as many digits as the error has two of, and those two behind them; "1.00000
+/// exact" where there is no error.
+std::string with_error(double value, double error);
+
+/// The table of a measurement, a row per layer, or per layer and channel where there are two or
+/// three, and what its shares are of. `comparison`, when given, adds the columns of L1
 /// and its noise; its rows are found by incident direction.
 std::string layer_table(const Measurement& measurement,
                         const std::optional<Comparison>& comparison);

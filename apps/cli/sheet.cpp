@@ -100,9 +100,10 @@ class SheetVerb {
         tone_.read();
         const ToneMapping mapping = tone_mapping(tone_);
         if (files_->count() == 0) throw Error(ErrorCode::Usage, "sheet needs pictures");
-        if (output_->count() == 0 || ending(text_of(output_)) != "png")
+        const bool piped = text_of(output_) == kStandardOutput;
+        if (output_->count() == 0 || (!piped && ending(text_of(output_)) != "png"))
             throw Error(ErrorCode::Usage, "sheet needs -o with a name ending in .png");
-        check_output_file(text_of(output_));
+        if (!piped) check_output_file(text_of(output_));
         const std::vector<std::string> names = files_->results();
         const int count = static_cast<int>(names.size());
         const int columns =
@@ -130,7 +131,7 @@ class SheetVerb {
                             !heads.empty(),
                             !labels.empty()};
         write(layout, images, mapping, heads, labels);
-        Talk(quiet_, false)("wrote " + text_of(output_) + "\n");
+        if (!piped) Talk(quiet_, false)("wrote " + text_of(output_) + "\n");
         return 0;
     }
 
@@ -160,7 +161,10 @@ class SheetVerb {
             words(labels[k], at.left(column) + 0.5 * at.width,
                   at.top(row) + at.height + 1.1 * letters, letters, kFaintInk);
         }
-        io::write_png(canvas, text_of(output_));
+        if (text_of(output_) != kStandardOutput) return io::write_png(canvas, text_of(output_));
+        const StandardOutputFile file("png");
+        io::write_png(canvas, file.path());
+        file.send();
     }
 
     RenderOptions tone_;

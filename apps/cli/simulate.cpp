@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // asperity simulate: the main job. Surface and light in, layers of a BRDF out.
+#include "file_kind.h"
 #include "help.h"
 #include "measuring.h"
 #include "options.h"
@@ -47,6 +48,8 @@ class SimulateVerb {
     int run() {
         Measuring::Task task;
         task.experiment = experiment_.read();
+        if (task.experiment.surface.kind == kSurfaceFile)
+            require_kind(task.experiment.surface.file, FileKind::Heights);
         task.rays_given = experiment_.rays_given();
         read_part(task);
         const std::string path = measuring_.has_output() ? measuring_.output() : "";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // asperity surface: make or read a surface, tell its figures, save it, draw it.
 #include "console.h"
+#include "file_kind.h"
 #include "help.h"
 #include "options.h"
 #include "output_path.h"
@@ -37,8 +38,9 @@ class SurfaceVerb {
         spec_ = add_text(app, "spec", "SPEC|FILE", "a kind of surface or a file of heights", "");
         experiment_.add_to(app, {kSurface}, false);
         threads_.add_to(app);
-        output_ =
-            add_text(app, "-o,--output", "FILE", "save the heights: .gsf, .exr or .txt", kOutput);
+        output_ = add_text(app, "-o,--output", "FILE",
+                           "save the heights: .gsf, .exr or .txt; - writes .gsf to standard output",
+                           kOutput);
         png_ = add_text(app, "--png", "FILE", "draw the surface seen from above", kOutput);
         look_ = add_text(app, "--look", "NAME", "of the picture: shaded or normals", kOutput)
                     ->default_str("shaded");
@@ -61,10 +63,11 @@ class SurfaceVerb {
                         "surface needs a kind of surface or a file, such as gaussian");
         }
         const SurfaceSettings settings = experiment_.read(spec).surface;
+        if (settings.kind == kSurfaceFile) require_kind(settings.file, FileKind::Heights);
         check_outputs();
         if (before_ && (png_->count() == 0 || settings.kind != kSurfaceFile))
             throw Error(ErrorCode::Usage, "it is for --png of a surface from a file", "before");
-        const Talk say(quiet_, json_);
+        const Talk say(quiet_, json_ || text_of(output_) == kStandardOutput);
         Run run(threads_.threads());
         const StopOnSignal stop(run);
         ProgressBar progress(run, quiet_);
@@ -75,7 +78,7 @@ class SurfaceVerb {
         if (run.stop_requested()) throw Error(ErrorCode::Stopped, "stopped, nothing is written");
         progress.clear();
 
-        if (output_->count() > 0) io::write_heights(surface, text_of(output_));
+        if (output_->count() > 0) save(surface);
         if (png_->count() > 0) draw(settings, patch, surface, run);
         if (json_) write_json(report.json(run));
         if (!json_) tell(say, report);
@@ -98,6 +101,14 @@ class SurfaceVerb {
         return 0;
     }
 
+    void save(const Heightfield& surface) const {
+        if (text_of(output_) != kStandardOutput)
+            return io::write_heights(surface, text_of(output_));
+        const StandardOutputFile file("gsf");
+        io::write_heights(surface, file.path());
+        file.send();
+    }
+
     void draw(const SurfaceSettings& settings, const Heightfield& patch, const Heightfield& surface,
               Run& run) const {
         if (before_)
@@ -116,13 +127,22 @@ class SurfaceVerb {
 
     void check_outputs() const {
         look();
+        if (look_->count() > 0 && png_->count() == 0)
+            throw Error(ErrorCode::Usage, "it is for --png, the picture", "look");
         if (output_->count() > 0) {
             const std::string path = text_of(output_);
-            const std::string kind = ending(path);
+            if (path == kStandardOutput && json_)
+                throw Error(ErrorCode::Usage,
+                            "standard output takes the heights: -o FILE leaves it free", "json");
+            const std::string kind = path == kStandardOutput ? "gsf" : ending(path);
             if (kind != "gsf" && kind != "exr" && kind != "txt") {
-                throw Error(ErrorCode::Usage, "the name must end in .gsf, .exr or .txt", path);
+                throw Error(ErrorCode::Usage,
+                            kind == "png"
+                                ? "--png draws a picture; -o saves heights, .gsf, .exr or .txt"
+                                : "the name must end in .gsf, .exr or .txt",
+                            path);
             }
-            check_output_file(path);
+            if (path != kStandardOutput) check_output_file(path);
         }
         if (png_->count() > 0) {
             if (ending(text_of(png_)) != "png") {
@@ -136,7 +156,8 @@ class SurfaceVerb {
         say(report.headline());
         if (stats_ || (output_->count() == 0 && png_->count() == 0)) say(report.figures());
         for (const CLI::Option* file : {output_, png_}) {
-            if (file->count() > 0) say("wrote " + text_of(file) + "\n");
+            if (file->count() > 0 && text_of(file) != kStandardOutput)
+                say("wrote " + text_of(file) + "\n");
         }
     }
 

@@ -28,5 +28,6 @@ Verb add_sheet(CLI::App& program);
 Verb add_export(CLI::App& program);
 Verb add_reference(CLI::App& program);
 Verb add_selftest(CLI::App& program);
+Verb add_help(CLI::App& program);
 
 }  // namespace asperity::cli

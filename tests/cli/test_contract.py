@@ -106,10 +106,12 @@ class Simulate(ProgramTest):
                            100000, "--resolution", 16, "--theta", "10", "--launch", "random",
                            "--fresnel", "conductor", "--material", "Ag", "--wavelengths", 550,
                            "-o", "r.asperity")
-        value, error = re.search(r"(\d\.\d+) ± (\d\.\d+)", text).groups()
-        self.assertGreater(float(error), 0)
-        self.assertEqual(len(value), len(error))
-        self.assertGreaterEqual(len(error.lstrip("0.")), 2)
+        value, error = re.search(r"(\d\.\d+)\((\d+)\)", text).groups()
+        layer, = self.json_of("info", "r.asperity")["layers"]
+        unit = 10.0 ** -len(value.split(".")[1])
+        self.assertEqual(len(error), 2)
+        self.assertAlmostEqual(float(value), layer["albedo"][0], delta=0.5001 * unit)
+        self.assertAlmostEqual(int(error) * unit, layer["albedo_stderr"][0], delta=0.5001 * unit)
 
     def test_json_keys(self):
         self.passes("simulate", "--surface", "thesis", *SMALL, "--bounces", 3, "--fresnel",
@@ -201,6 +203,13 @@ class Simulate(ProgramTest):
                            "none")
         self.assertNotIn("L1", text)
 
+    def test_reference_has_the_material_of_the_run(self):
+        rough = ["simulate", "--surface", "gaussian", *SMALL, "--theta", 30]
+        self.assertIn("metallic=1,albedo=0.04/0.5/0.9",
+                      self.passes(*rough, "--f0", "0.04,0.5,0.9"))
+        # Air to glass of index 1.5: ((1.5 - 1) / (1.5 + 1))^2
+        self.assertIn("albedo=0.04\n", self.passes(*rough, "--ior", 1.5).replace(";", ""))
+
     def test_reference_of_other_channels(self):
         rough = ["simulate", "--surface", "gaussian", *SMALL, "--theta", 30, "--f0", "0.04,0.5"]
         self.assertNotIn("L1", self.passes(*rough))
@@ -227,6 +236,42 @@ class Simulate(ProgramTest):
         read = self.json_of("info", "r.asperity")
         self.assertEqual([layer["exact"] for layer in read["layers"]],
                          [layer["exact"] for layer in made["layers"]])
+
+
+class StandardOutput(ProgramTest):
+    def test_takes_the_file_and_nothing_else(self):
+        few = ["simulate", "--surface", "gaussian", *SMALL, "--theta", "0:80:40"]
+        self.passes(*few, "-o", "r.asperity")
+        sides = (((*few,), "r.asperity", "asperity"),
+                 (("surface", "gaussian", "--size", 32), None, "gsf"),
+                 (("export", "r.asperity", "--format", "layers-csv"), None, "csv"),
+                 (("export", "r.asperity"), None, "png"),
+                 (("render", "--model", "sphere", "--width", 16, "--height", 16, "--spp", 1), None,
+                  "png"))
+        for arguments, _, ending in sides:
+            with self.subTest(arguments):
+                piped = subprocess.run([PROGRAM, *map(str, arguments), "-o", "-"], check=True,
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE).stdout
+                self.passes(*arguments, "-o", f"there.{ending}")
+                if ending == "asperity":  # files hold the time it took
+                    with open("piped.asperity", "wb") as file:
+                        file.write(piped)
+                    self.assertEqual(self.json_of("info", "piped.asperity")["checksum"],
+                                     self.json_of("info", "r.asperity")["checksum"])
+                else:
+                    self.assertEqual(piped, content(f"there.{ending}"))
+        self.fails(2, *few, "--json", "-o", "-", saying="standard output")
+        self.fails(2, *few, "--resume", "-o", "-", saying="-o FILE")
+        self.fails(2, "export", "r.asperity", "-o", "-", "--format", "csv", saying="layers-csv")
+        self.fails(2, "export", "r.asperity", "-o", "-", "--format", "rgl", "--snippet",
+                   saying="snippet")
+
+    def test_other_kinds_of_file_are_refused_with_the_way_there(self):
+        for ending in ("exr", "csv", "png", "bsdf"):
+            self.fails(2, "simulate", *SMALL, "-o", f"r.{ending}",
+                       saying=f"asperity export r.asperity -o X.{ending}")
+        self.fails(2, "simulate", *SMALL, "-o", "r.gsf", saying="asperity surface")
+        self.assert_files()
 
 
 class Config(ProgramTest):
@@ -357,6 +402,17 @@ class Compare(ProgramTest):
         text = self.passes("compare", "a.asperity", "ggx:alpha=0.3")
         self.assertIn("mean L1", text)
         self.assertIn("RMS [1/sr]", text)
+
+    def test_other_layers_are_interpolated_and_it_is_said(self):
+        self.passes("simulate", "--surface", "gaussian", *SMALL, "--theta", "10:70:20", "-o",
+                    "c.asperity")
+        text = self.passes("compare", "a.asperity", "c.asperity")
+        self.assertIn("note: one has 15 layers, the other 4: B is interpolated", text)
+        found = self.json_of("compare", "c.asperity", "a.asperity")
+        self.assertEqual([round(layer["theta_deg"]) for layer in found["layers"]], [10, 30, 50, 70])
+        self.assertIn("interpolated", found["note"])
+        self.assertLess(found["mean_l1"], 0.5)
+        self.assertNotIn("note", self.json_of("compare", "a.asperity", "b.asperity"))
 
     def test_refusals(self):
         self.fails(2, "compare", "a.asperity", saying="two")

@@ -142,6 +142,12 @@ class NearlyRight(ProgramTest):
             with self.subTest(arguments):
                 self.fails(2, *arguments, saying=words)
 
+    def test_help_is_a_verb(self):
+        self.assertEqual(self.passes("help"), self.passes("--help"))
+        for verb in ("simulate", "render", "help", "reference"):
+            self.assertEqual(self.passes("help", verb), self.passes(verb, "--help"))
+        self.fails(2, "help", "simulte", saying="did you mean simulate?")
+
     def test_help_teaches(self):
         for verb in ("surface", "simulate", "refine", "merge", "info", "compare", "fit", "render",
                      "export",

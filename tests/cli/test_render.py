@@ -187,6 +187,34 @@ class Sheets(ProgramTest):
         self.fails(2, "compare", "a.exr", "a.exr", "--theta", 3, saying="models")
 
 
+class Panorama(ProgramTest):
+    LIGHT = ["--model", "none", "--camera", "panorama", "--width", 64, "--height", 32, "--filter",
+             "centre", "--spp", 1]
+
+    def test_a_map_seen_all_round_is_the_map(self):
+        """In the middle of its texels a map shows them as they are: camera and light agree."""
+        self.passes("render", *self.LIGHT, "--sun-diameter", 20, "-o", "sky.exr")
+        self.passes("render", *self.LIGHT, "--light", "env:sky.exr", "-o", "again.exr")
+        difference = self.json_of("compare", "sky.exr", "again.exr")
+        self.assertGreater(difference["mean_a"], 0)
+        self.assertLess(difference["relative_difference"], 1e-6)
+        turned = ["--light", "env:sky.exr", "--light-rotation", 90]
+        self.passes("render", *self.LIGHT, *turned, "-o", "turned.exr")
+        self.assertGreater(
+            self.json_of("compare", "sky.exr", "turned.exr")["relative_difference"], 0.1)
+
+    def test_models_are_seen_from_a_place(self):
+        for place, grey in (("0,0,3", False), ("0,90,0", True)):
+            self.passes("render", *self.LIGHT[2:], "--model", "sphere", "--light", "constant",
+                        "--brdf", "lambert:albedo=0", "--camera-position", place, "-o", "a.exr")
+            self.passes("render", *self.LIGHT, "--light", "constant", "-o", "b.exr")
+            far = self.json_of("compare", "a.exr", "b.exr")["relative_difference"]
+            # Of all directions a sphere of radius 1 fills (1 - cos(asin(1 / 3))) / 2 = 2.9 %, more
+            # of the map's pixels where they are small, none where it is seen far below
+            self.assertEqual(far == 0, False)
+            (self.assertLess if grey else self.assertGreater)(far, 0.02)
+
+
 class Refusals(ProgramTest):
     # Options that no picture can be made with, and a word of the answer.
     SILLY = [
@@ -217,6 +245,9 @@ class Refusals(ProgramTest):
         (["--camera-azimuth", "left"], "azimuth"), (["--camera-target", "0,0,1e999"], "target"),
         (["--camera-position", "0,0,0"], "camera"),
         (["--camera-position", "0,0,1", "--camera-distance", 2], "camera-position"),
+        (["--camera", "fisheye"], "panorama"), (["--camera", "panorama"], "twice as wide"),
+        (["--camera", "panorama", "--width", 64, "--height", 32, "--camera-fov", 50], "camera-fov"),
+        (["--model", "none", "--brdf", "lambert"], "no model"),
         (["--tonemap", "film"], "tonemap"), (["--exposure", 101], "exposure"),
         (["--transfer", "log"], "transfer"), (["--modle", "knot"], "did you mean --model?"),
     ]

@@ -3,6 +3,7 @@
 #include <asperity/bsdf/spec.h>
 #include <asperity/core/error.h>
 #include <asperity/core/parse_number.h>
+#include <asperity/params/suggest.h>
 
 #include <fmt/format.h>
 
@@ -32,8 +33,8 @@ void add(SpecSettings& settings, const std::string& spec, const BsdfModel& model
     if (std::none_of(model.params.begin(), model.params.end(), is_key)) {
         std::vector<std::string> keys;
         for (const BsdfParam& param : model.params) keys.push_back(param.info.name);
-        fail(spec, fmt::format("\"{}\" is not a key of this model; there are {}", key,
-                               fmt::join(keys, ", ")));
+        fail(spec, fmt::format("\"{}\" is not a key of this model; there are {}{}", key,
+                               fmt::join(keys, ", "), did_you_mean(key, keys)));
     }
     if (has(settings, key)) fail(spec, fmt::format("{} is given twice", key));
     const std::string_view value = text.substr(equals + 1);

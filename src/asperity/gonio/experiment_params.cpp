@@ -86,7 +86,8 @@ ParamTable<IlluminationSettings> illumination_params() {
                                   .unit = "degrees",
                                   .range = kBelowHorizon,
                                   .absent = "none",
-                                  .doc = "incident polar angles",
+                                  .doc = "incident polar angles: 0,30,60 or, from 0 to 80 in "
+                                         "steps of 10, 0:80:10",
                                   .otherwise = "the layers' angles"}),
             field(&S::phi_deg, {.name = "phi",
                                 .metavar = "D[,D...]",

@@ -2,6 +2,7 @@
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
 #include <asperity/measured/compare.h>
+#include <asperity/measured/tabulated.h>
 #include <asperity/tracing/launch.h>
 
 #include <fmt/format.h>
@@ -95,12 +96,12 @@ void summarise(Comparison& c) {
     c.mean_rms /= count;
 }
 
-void require_same_detector(const Detector& a, const Detector& b) {
+std::string unlike_detectors(const Detector& a, const Detector& b) {
     if (a.kind() != b.kind())
-        differ("one has a latitude-longitude detector, the other one of equal areas");
-    if (a.rows() != b.rows() || a.columns() != b.columns())
-        differ(fmt::format("one has {} x {} cells, the other {} x {}", a.rows(), a.columns(),
-                           b.rows(), b.columns()));
+        return "one has a latitude-longitude detector, the other one of equal areas";
+    if (a.rows() == b.rows() && a.columns() == b.columns()) return {};
+    return fmt::format("one has {} x {} cells, the other {} x {}", a.rows(), a.columns(), b.rows(),
+                       b.columns());
 }
 
 bool same_direction(const Layer& a, const Layer& b) {
@@ -109,29 +110,44 @@ bool same_direction(const Layer& a, const Layer& b) {
            std::abs(std::remainder(a.phi_i - b.phi_i, 2 * kPi)) < kTolerance;
 }
 
-/// The layer of `b` with the incidence of `layer`.
-const Layer& partner(const Measurement& b, const Layer& layer) {
+/// The layer of `b` with the incidence of `layer`, or nullptr.
+const Layer* partner(const Measurement& b, const Layer& layer) {
     for (const Layer& other : b.layers)
-        if (same_direction(layer, other)) return other;
-    differ(fmt::format("only one has a layer at theta {:.6g}, phi {:.6g} degrees",
-                       degrees(layer.theta_i), degrees(layer.phi_i)));
+        if (same_direction(layer, other)) return &other;
+    return nullptr;
 }
 
 }  // namespace
 
-Comparison compare(const Measurement& a, const Measurement& b) {
-    require_same_detector(a.detector, b.detector);
-    require_channels(a.channels(), b.channels());
+std::string unlike(const Measurement& a, const Measurement& b) {
+    if (std::string why = unlike_detectors(a.detector, b.detector); !why.empty()) return why;
     if (a.experiment.illumination.isotropic != b.experiment.illumination.isotropic)
-        differ("one averages over the azimuth of the light, the other does not");
+        return "one averages over the azimuth of the light, the other does not";
     if (a.layers.size() != b.layers.size())
-        differ(fmt::format("one has {} layers, the other {}", a.layers.size(), b.layers.size()));
+        return fmt::format("one has {} layers, the other {}", a.layers.size(), b.layers.size());
+    for (const Layer& layer : a.layers)
+        if (partner(b, layer) == nullptr)
+            return fmt::format("only one has a layer at theta {:.6g}, phi {:.6g} degrees",
+                               degrees(layer.theta_i), degrees(layer.phi_i));
+    return {};
+}
+
+Comparison compare(const Measurement& a, const Measurement& b) {
+    require_channels(a.channels(), b.channels());
+    if (std::string why = unlike(a, b); !why.empty()) differ(std::move(why));
 
     Comparison result{a.surface_name, b.surface_name, {}, 0, 0, 0};
     for (const Layer& layer : a.layers)
-        add(result, compare_lobes(lobes_of(a, layer), lobes_of(b, partner(b, layer)), a.detector),
+        add(result, compare_lobes(lobes_of(a, layer), lobes_of(b, *partner(b, layer)), a.detector),
             layer.number, layer.theta_i, layer.phi_i);
     summarise(result);
+    return result;
+}
+
+Comparison compare_between_layers(const Measurement& a, const Measurement& b, const Run& run) {
+    require_channels(a.channels(), b.channels());
+    Comparison result = compare(a, *make_tabulated_brdf(b, run), run.threads());
+    result.name_b = b.surface_name;
     return result;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <asperity/bsdf/bsdf.h>
+#include <asperity/core/run.h>
 #include <asperity/gonio/measurement.h>
 
 #include <string>
@@ -42,6 +43,13 @@ struct Comparison {
 /// model averaged over the same cells.
 Comparison compare(const Measurement& a, const Measurement& b);
 Comparison compare(const Measurement& a, const Bsdf& b, int threads);
+/// Why `compare(a, b)` would refuse two measurements by their cells or incident directions, as a
+/// sentence: "one has 15 layers, the other 3"; empty where it would not.
+std::string unlike(const Measurement& a, const Measurement& b);
+/// The same for measurements that are unlike: `b` is evaluated between its layers, see
+/// make_tabulated_brdf, over the cells and incidences of `a`. Its error bars are not propagated:
+/// l1_noise is that of `a` alone. Throws Error(InvalidInput), Error(Stopped) when the run is.
+Comparison compare_between_layers(const Measurement& a, const Measurement& b, const Run& run);
 /// Two models over the cells and incidences of an experiment.
 Comparison compare(const Bsdf& a, const Bsdf& b, const Experiment& experiment, int threads);
 

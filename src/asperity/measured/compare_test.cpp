@@ -159,5 +159,28 @@ TEST(CompareTest, SaysWhatDiffers) {
     EXPECT_THROW(compare(test::measurement_of(*two, one_layer(10, 16)), *rgb, 1), Error);
 }
 
+// Lobes of one model at angles that lie between each other's: interpolation has to bring them
+// together far better than taking the nearest layer does, and the albedos, here smooth in the
+// angle, to the blend of the neighbours.
+TEST(CompareTest, BetweenLayersTheLobeIsWhereTheLightSendsIt) {
+    const auto model = parse_brdf_spec("ggx:alpha=0.2,f0=0.5");
+    Experiment odd = one_layer(0, 64), even = odd;
+    odd.illumination.theta_deg = {5, 15, 25, 35, 45, 55};
+    even.illumination.theta_deg = {0, 10, 20, 30, 40, 50, 60};
+    const Measurement a = test::measurement_of(*model, odd), b = test::measurement_of(*model, even);
+    EXPECT_EQ(unlike(a, b), "one has 6 layers, the other 7");
+    const Comparison between = compare_between_layers(a, b, Run(2));
+    ASSERT_EQ(between.layers.size(), 6u);
+    Measurement nearest = b;
+    nearest.layers.pop_back();
+    for (std::size_t k = 0; k < nearest.layers.size(); ++k)
+        nearest.layers[k].theta_i = a.layers[k].theta_i;
+    const Comparison moved = compare(a, nearest);
+    for (std::size_t k = 0; k < 6; ++k) {
+        EXPECT_LT(between.layers[k].l1, 0.3 * moved.layers[k].l1) << k;
+        EXPECT_NEAR(between.layers[k].albedo_difference, 0, 0.01) << k;
+    }
+}
+
 }  // namespace
 }  // namespace asperity

@@ -69,13 +69,29 @@ constexpr TabulatedMaterial kMaterials[] = {
     {"Ni", "Nickel", kJohnson1974, kNi}, {"Ti", "Titanium", kJohnson1974, kTi},
 };
 
+std::string lower(std::string_view text) {
+    std::string small(text);
+    for (char& c : small)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return small;
+}
+
+/// For who writes au or gold.
+std::string cure(std::string_view typed) {
+    for (const TabulatedMaterial& material : kMaterials)
+        if (lower(typed) == lower(material.symbol) || lower(typed) == lower(material.name))
+            return fmt::format("; did you mean {}?", material.symbol);
+    return {};
+}
+
 const TabulatedMaterial& find_material(std::string_view symbol) {
     std::string symbols;
     for (const TabulatedMaterial& material : kMaterials) {
         if (material.symbol == symbol) return material;
         symbols += (symbols.empty() ? "" : ", ") + std::string(material.symbol);
     }
-    throw Error(ErrorCode::Usage, fmt::format("\"{}\" is not known; there are {}", symbol, symbols),
+    throw Error(ErrorCode::Usage,
+                fmt::format("\"{}\" is not known; there are {}{}", symbol, symbols, cure(symbol)),
                 "material");
 }
 

@@ -2,10 +2,12 @@
 #include <asperity/params/param.h>
 
 #include <asperity/core/parse_number.h>
+#include <asperity/params/suggest.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 
@@ -13,11 +15,32 @@ namespace asperity {
 
 namespace {
 
+/// What somebody who wrote the number with its unit or with a decimal comma should write.
+std::string number_cure(const ParamInfo& info, std::string_view text) {
+    constexpr std::array<std::string_view, 12> kUnits = {
+        "degrees", "degree", "deg", "\u00b0", "rad", "nm", "\u00b5m", "um", "mm", "px", "s", "%"};
+    for (const std::string_view unit : kUnits) {
+        if (!text.ends_with(unit)) continue;
+        const auto value = parse_double(trimmed(text.substr(0, text.size() - unit.size())));
+        if (!value) continue;
+        // An angle in radians is another number: only the unit can be named.
+        const std::string taken = info.unit.empty() ? "without a unit" : "in " + info.unit;
+        return unit == "rad" ? "; it is taken " + taken
+                             : fmt::format("; write {}, it is taken {}", shortest(*value), taken);
+    }
+    std::string pointed(text);
+    const std::size_t comma = pointed.find(',');
+    if (comma == std::string::npos) return {};
+    pointed[comma] = '.';
+    return parse_double(pointed) ? "; did you mean " + pointed + "?" : std::string();
+}
+
 double parse_real(const ParamInfo& info, std::string_view text) {
     const bool percent = info.percent && text.ends_with('%');
     const auto value = parse_double(percent ? trimmed(text.substr(0, text.size() - 1)) : text);
     if (!value)
-        refuse(info, in_quotes(text) + (percent ? " is not a percentage" : " is not a number"));
+        refuse(info, in_quotes(text) + (percent ? " is not a percentage" : " is not a number") +
+                         number_cure(info, text));
     return percent ? *value / 100 : *value;
 }
 
@@ -41,6 +64,29 @@ bool parse_flag(const ParamInfo& info, std::string_view text) {
     refuse(info, in_quotes(text) + " is neither true nor false");
 }
 
+/// The numbers of "start:stop:step", the stop among them where the steps meet it.
+void add_range(const ParamInfo& info, std::string_view text, std::vector<double>& numbers) {
+    constexpr double kMost = 10000, kMeets = 1e-9;
+    const auto parts = split(text, ':');
+    if (parts.size() != 3)
+        refuse(info, in_quotes(text) + " is not start:stop:step, such as 0:80:10");
+    const double start = parse_real(info, parts[0]), stop = parse_real(info, parts[1]),
+                 step = parse_real(info, parts[2]);
+    const double steps = (stop - start) / step;
+    if (!(steps >= 0))
+        refuse(info,
+               in_quotes(text) + fmt::format(" never comes from {} to {}", parts[0], parts[1]));
+    if (steps > kMost)
+        refuse(info, fmt::format("{} is more than {} numbers", in_quotes(text), kMost));
+    const int count = static_cast<int>(std::floor(steps + kMeets)) + 1;
+    for (int k = 0; k < count; ++k) {
+        // As one would write it: 0.3, not what three times 0.1 is.
+        constexpr int kDigits = 12;
+        const std::string written = fmt::format("{:.{}g}", start + k * step, kDigits);
+        numbers.push_back(parse_double(written).value_or(start + k * step));
+    }
+}
+
 std::vector<double> parse_list(const ParamInfo& info, std::string_view text) {
     std::vector<double> numbers;
     if (info.type == ParamType::List && (text.empty() || text == info.absent)) return numbers;
@@ -49,17 +95,26 @@ std::vector<double> parse_list(const ParamInfo& info, std::string_view text) {
     if (parts.size() > most)
         refuse(info, fmt::format("{} is more than {} numbers", in_quotes(text), most));
     for (const std::string_view part : parts) {
+        if (info.type == ParamType::List && part.find(':') != part.npos) {
+            add_range(info, part, numbers);
+            continue;
+        }
         const bool open = info.type == ParamType::Pair && part == info.absent && !part.empty();
         numbers.push_back(open ? std::nan("") : parse_real(info, part));
     }
     if (info.type == ParamType::Pair) numbers.resize(2, numbers.front());
+    if (numbers.size() > most)
+        refuse(info, fmt::format("{} is more than {} numbers", in_quotes(text), most));
     return numbers;
 }
 
 void check_number(const ParamInfo& info, double value, const std::string& text) {
     if (info.range.contains(value)) return;
-    refuse(info,
-           in_quotes(text) + " " + info.range.rule() + (info.unit.empty() ? "" : " " + info.unit));
+    // Who writes a share as 2 means two in a hundred.
+    const bool hundredths = info.percent && value >= 1 && value < 100;
+    refuse(info, in_quotes(text) + " " + info.range.rule() +
+                     (info.unit.empty() ? "" : " " + info.unit) +
+                     (hundredths ? "; did you mean " + text + "%?" : ""));
 }
 
 std::string real_text(double value, const ParamInfo& info) {
@@ -131,8 +186,9 @@ ParamValue parse(const ParamInfo& info, std::string_view raw) {
             return parse_list(info, text);
         case ParamType::Choice:
             if (std::find(info.choices.begin(), info.choices.end(), text) == info.choices.end())
-                refuse(info, fmt::format("{} is none of {}", in_quotes(text),
-                                         fmt::join(info.choices, ", ")));
+                refuse(info, fmt::format("{} is none of {}{}", in_quotes(text),
+                                         fmt::join(info.choices, ", "),
+                                         did_you_mean(std::string(text), info.choices)));
             return std::string(text);
         case ParamType::Text:
             break;

@@ -27,7 +27,7 @@ enum class ParamType {
     Real,
     Choice,  ///< one of `choices`
     Text,
-    List,  ///< numbers between commas
+    List,  ///< numbers between commas; "0:80:10" stands for 0, 10, ... 80
     Pair,  ///< two numbers, "0.3,0.1"; "0.3" alone counts for both
 };
 

@@ -15,7 +15,7 @@ struct Lamp {
     bool on = true;
     int bulbs = 3;
     std::uint64_t seed = 1, rays = 0;
-    double power = 40;
+    double power = 40, share = 0.5;
     std::string maker;
     std::vector<double> angles;
     Colour colour = Colour::Blue;
@@ -36,6 +36,7 @@ ParamTable<Lamp> lamp_params() {
               {.name = "angles", .range = kBelowHorizon, .absent = "none", .most = 3}),
         field(&Lamp::colour, kColours, {.name = "colour"}),
         pair_field(&Lamp::x, &Lamp::y, {.name = "size", .range = kAboveZero}),
+        field(&Lamp::share, {.name = "share", .range = {0, 1, true}, .percent = true}),
         pair_field(&Lamp::u, &Lamp::v, {.name = "cell", .range = kAboveZero}),
     };
     table[1].unused = [](const Lamp& l) { return std::string(l.on ? "" : "the lamp is off"); };
@@ -48,15 +49,29 @@ struct Case {
 
 TEST(Param, TextAndBack) {
     const auto table = lamp_params();
-    for (const Case& c :
-         {Case{"on", "no", "false"}, Case{"on", "1", "true"}, Case{"bulbs", " 7 ", "7"},
-          Case{"seed", "18446744073709551615", nullptr}, Case{"seed", "9007199254740993", nullptr},
-          Case{"rays", "1e6", "1000000"}, Case{"rays", "auto", nullptr},
-          Case{"power-used", "0.1", nullptr}, Case{"maker", " a,b ", nullptr},
-          Case{"maker", "none", nullptr}, Case{"angles", "0, 89.5", "0,89.5"},
-          Case{"angles", "", "none"}, Case{"colour", "red", nullptr}, Case{"size", "0.25", nullptr},
-          Case{"size", "0.5,0.5", "0.5"}, Case{"size", "2,3", nullptr},
-          Case{"cell", "auto,2", nullptr}, Case{"cell", "auto", nullptr}}) {
+    for (const Case& c : {Case{"on", "no", "false"},
+                          Case{"on", "1", "true"},
+                          Case{"bulbs", " 7 ", "7"},
+                          Case{"seed", "18446744073709551615", nullptr},
+                          Case{"seed", "9007199254740993", nullptr},
+                          Case{"rays", "1e6", "1000000"},
+                          Case{"rays", "auto", nullptr},
+                          Case{"power-used", "0.1", nullptr},
+                          Case{"maker", " a,b ", nullptr},
+                          Case{"maker", "none", nullptr},
+                          Case{"angles", "0, 89.5", "0,89.5"},
+                          Case{"angles", "", "none"},
+                          Case{"angles", "0:80:40", "0,40,80"},
+                          Case{"angles", "80 : 0 : -40", "80,40,0"},
+                          Case{"angles", "0.1:0.3:0.1", "0.1,0.2,0.3"},
+                          Case{"angles", "5,0:19:10", "5,0,10"},
+                          Case{"angles", "7:7:1", "7"},
+                          Case{"colour", "red", nullptr},
+                          Case{"size", "0.25", nullptr},
+                          Case{"size", "0.5,0.5", "0.5"},
+                          Case{"size", "2,3", nullptr},
+                          Case{"cell", "auto,2", nullptr},
+                          Case{"cell", "auto", nullptr}}) {
         const Param<Lamp>* param = find(table, c.name);
         ASSERT_NE(param, nullptr) << c.name;
         Lamp lamp, again;
@@ -109,6 +124,17 @@ TEST(Param, RefusesWithTheRule) {
     expect_refused("angles", "0,90", "'90' must be at least 0 and below 90");
     expect_refused("angles", "1,2,3,4", "'1,2,3,4' is more than 3 numbers");
     expect_refused("angles", "1,", "'' is not a number");
+    expect_refused("angles", "0:30:10", "'0:30:10' is more than 3 numbers");
+    expect_refused("angles", "0:80", "'0:80' is not start:stop:step, such as 0:80:10");
+    expect_refused("angles", "0:80:0:1", "'0:80:0:1' is not start:stop:step, such as 0:80:10");
+    expect_refused("angles", "0:80:-40", "'0:80:-40' never comes from 0 to 80");
+    expect_refused("angles", "1:1:0", "'1:1:0' never comes from 1 to 1");
+    expect_refused("angles", "0:80:1e-9", "'0:80:1e-9' is more than 10000 numbers");
+    expect_refused("angles", "0:120:60", "'120' must be at least 0 and below 90");
+    expect_refused("colour", "bleu", "'bleu' is none of red, blue; did you mean blue?");
+    expect_refused("share", "2", "'2' must be above 0 and at most 1; did you mean 2%?");
+    expect_refused("power-used", "4 px", "'4 px' is not a number; write 4, it is taken in W");
+    expect_refused("power-used", "2,5", "'2,5' is not a number; did you mean 2.5?");
     expect_refused("colour", "green", "'green' is none of red, blue");
     expect_refused("size", "1,2,3", "'1,2,3' is more than 2 numbers");
     expect_refused("size", "auto", "'auto' is not a number");

@@ -2,6 +2,7 @@
 #include <asperity/render/camera.h>
 
 #include <asperity/core/error.h>
+#include <asperity/render/environment_map.h>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -28,6 +29,10 @@ Camera look_at(Vec3 position, Vec3 target, double fov_deg, Vec3 up) {
     const Vec3 right = normalize(cross(camera.forward, up));
     camera.up = cross(right, camera.forward);
     return camera;
+}
+
+Vec3 PixelRays::around(double x, double y) const {
+    return map_direction({x / columns_, y * pixel_});
 }
 
 }  // namespace asperity

@@ -51,6 +51,21 @@ TEST(Camera, RefusesWhatCannotBe) {
     EXPECT_EQ(where({0, 0, 1}, {0, 0, 0}, 170), "");
 }
 
+// Thesis eq. 4.5: -z in the middle, +x to the right of it, +y along the upper edge.
+TEST(PixelRays, OfAPanoramaGoEverywhere) {
+    Camera camera;
+    camera.position = {1, 2, 3};
+    camera.panorama = true;
+    const PixelRays rays(camera, 400, 200);
+    EXPECT_EQ(rays.at(7, 9).origin, (Vec3{1, 2, 3}));
+    expect_near(rays.at(200, 100).direction, {0, 0, -1});
+    expect_near(rays.at(300, 100).direction, {1, 0, 0});
+    expect_near(rays.at(100, 100).direction, {-1, 0, 0});
+    expect_near(rays.at(0, 100).direction, {0, 0, 1});
+    expect_near(rays.at(123, 0).direction, {0, 1, 0});
+    expect_near(rays.at(300, 150).direction, normalize({1, -1, 0}));
+}
+
 // From edge to edge the picture is 2 tan(fov / 2) high at distance 1, and wide in proportion.
 TEST(PixelRays, ReachTheEdgesOfTheField) {
     const Camera camera = look_at({0, 0, 2}, {0, 0, 0}, 90);

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <asperity/gonio/measurement.h>
+
+#include <string>
+
+namespace asperity::cli {
+
+/// What a file can be taken for by its first bytes.
+enum class FileKind { Unknown, Result, Heights, Bsdf, Picture, Model };
+
+/// Refuses a file that is there but of another kind than the one a verb or option takes, and says
+/// where it belongs; and one that is not there, naming its like. A file of unknown kind passes:
+/// its reader says more. Throws Error(InvalidInput, path), Error(InputOutput, path).
+void require_kind(const std::string& path, FileKind wanted);
+
+/// "; did you mean FILE?" for one in the same folder whose name is nearly this, or nothing.
+std::string did_you_mean_file(const std::string& path);
+
+/// A result of asperity simulate. Throws what require_kind and io::load_measurement throw.
+Measurement load_result(const std::string& path);
+
+}  // namespace asperity::cli
