@@ -40,7 +40,8 @@ Verb add_help(CLI::App& program) {
     return {app, [&program, name] {
                 const CLI::App& page =
                     name->count() == 0 ? program : find_verb(program, text_of(name));
-                write_out(page.help());
+                // App::help() would be that of the verb under way
+                write_out(page.get_formatter()->make_help(&page, "", CLI::AppFormatMode::Normal));
                 return 0;
             }};
 }

@@ -262,7 +262,7 @@ class StandardOutput(ProgramTest):
                     self.assertEqual(piped, content(f"there.{ending}"))
         self.fails(2, *few, "--json", "-o", "-", saying="standard output")
         self.fails(2, *few, "--resume", "-o", "-", saying="-o FILE")
-        self.fails(2, "export", "r.asperity", "-o", "-", "--format", "csv", saying="layers-csv")
+        self.fails(2, "export", "r.asperity", "-o", "-", "--format", "table", saying="layers-csv")
         self.fails(2, "export", "r.asperity", "-o", "-", "--format", "rgl", "--snippet",
                    saying="snippet")
 

@@ -31,6 +31,20 @@ class Stop(ProgramTest):
         self.assertIn("surface:", process.stdout.readline())
         return process
 
+    def test_long_runs_say_first_what_they_spend_their_time_on(self):
+        for options, words in ((["--alpha", "0.3"], "rays in each of 15 directions; fewer --rays"),
+                               (["--alpha", "30"], "steep")):
+            process = self.start(*LONG, *options)
+            self.assertIn("surface:", process.stdout.readline())
+            said = process.stdout.readline()
+            self.assertRegex(said, r"^about \d+ min: ")
+            self.assertIn(words, said)
+            if words == "steep":
+                self.assertIn("a smaller --alpha or --bounces", process.stdout.readline())
+            process.kill()
+        # A short one does not
+        self.assertNotIn(" min: ", self.passes(*LONG[:5], "--rays", "100000", *LONG[7:]))
+
     def test_keeps_what_is_complete(self):
         for wish in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with self.subTest(wish):

@@ -169,7 +169,7 @@ TEST(CompareTest, BetweenLayersTheLobeIsWhereTheLightSendsIt) {
     even.illumination.theta_deg = {0, 10, 20, 30, 40, 50, 60};
     const Measurement a = test::measurement_of(*model, odd), b = test::measurement_of(*model, even);
     EXPECT_EQ(unlike(a, b), "one has 6 layers, the other 7");
-    const Comparison between = compare_between_layers(a, b, Run(2));
+    const Comparison between = compare_between_layers(a, b, asperity::Run(2));
     ASSERT_EQ(between.layers.size(), 6u);
     Measurement nearest = b;
     nearest.layers.pop_back();
