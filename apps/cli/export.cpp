@@ -16,6 +16,7 @@
 #include <asperity/formats/bsdfs/fidelity.h>
 #include <asperity/formats/bsdfs/snippets.h>
 #include <asperity/formats/results/result_file.h>
+#include <asperity/params/suggest.h>
 #include <asperity/pictures/pictures.h>
 
 #include <fmt/format.h>
@@ -49,7 +50,9 @@ Value choose(const std::string& option, const std::string& name,
         if (name == known) return value;
         names.emplace_back(known);
     }
-    throw Error(ErrorCode::Usage, fmt::format("'{}' is none of {}", name, fmt::join(names, ", ")),
+    throw Error(ErrorCode::Usage,
+                fmt::format("'{}' is none of {}{}", name, fmt::join(names, ", "),
+                            did_you_mean(name, names)),
                 option);
 }
 

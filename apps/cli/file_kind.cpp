@@ -38,7 +38,7 @@ Content content_of(const std::string& path) {
         if (row.sniff(start))
             return {FileKind::Picture, fmt::format("it is a picture ({})", row.name)};
     if (start.bytes.starts_with("\x89PNG"))
-        return {FileKind::Picture, "it is a picture for screens (PNG)"};
+        return {FileKind::Screen, "it is a picture for screens (PNG)"};
     const io::HeightsFormats heights;
     for (const io::HeightsFormat& row : heights.rows())
         if (row.recognises && row.recognises(start.bytes))
@@ -59,6 +59,8 @@ std::string name_of(FileKind kind) {
             return "a BSDF";
         case FileKind::Picture:
             return "a picture in linear light (.exr or .hdr)";
+        case FileKind::Screen:
+            return "a picture for screens";
         case FileKind::Model:
             return "a 3D model";
         case FileKind::Unknown:
@@ -79,6 +81,8 @@ std::string cure(FileKind found, const std::string& path) {
             return "asperity compare, fit, export and render --brdf take it";
         case FileKind::Picture:
             return "asperity compare takes two, asperity render --light env:FILE a map";
+        case FileKind::Screen:
+            return "asperity render -o X.exr keeps the light itself";
         case FileKind::Model:
             return fmt::format("asperity render --model {} shows it", path);
         case FileKind::Unknown:
@@ -90,7 +94,7 @@ std::string cure(FileKind found, const std::string& path) {
 /// Heights may be kept as pictures, and a BSDF in a text table.
 bool may_be(FileKind wanted, FileKind found) {
     if (found == FileKind::Unknown || found == wanted) return true;
-    return wanted == FileKind::Heights && found == FileKind::Picture;
+    return wanted == FileKind::Heights && (found == FileKind::Picture || found == FileKind::Screen);
 }
 
 }  // namespace
@@ -119,6 +123,16 @@ void require_kind(const std::string& path, FileKind wanted) {
         ErrorCode::InvalidInput,
         fmt::format("{}, not {}: {}", content.words, name_of(wanted), cure(content.kind, path)),
         path);
+}
+
+void refuse_known_kind(const std::string& path, const std::string& wanted,
+                       const std::string& cure) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored)) return;
+    const Content content = content_of(path);
+    if (content.kind == FileKind::Unknown) return;
+    throw Error(ErrorCode::InvalidInput, fmt::format("{}, not {}: {}", content.words, wanted, cure),
+                path);
 }
 
 Measurement load_result(const std::string& path) {

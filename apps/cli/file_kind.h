@@ -8,12 +8,15 @@
 namespace asperity::cli {
 
 /// What a file can be taken for by its first bytes.
-enum class FileKind { Unknown, Result, Heights, Bsdf, Picture, Model };
+enum class FileKind { Unknown, Result, Heights, Bsdf, Picture, Screen, Model };
 
 /// Refuses a file that is there but of another kind than the one a verb or option takes, and says
 /// where it belongs; and one that is not there, naming its like. A file of unknown kind passes:
 /// its reader says more. Throws Error(InvalidInput, path), Error(InputOutput, path).
 void require_kind(const std::string& path, FileKind wanted);
+
+/// Refuses a file of any of those kinds where `wanted`, another one, is to be read.
+void refuse_known_kind(const std::string& path, const std::string& wanted, const std::string& cure);
 
 /// "; did you mean FILE?" for one in the same folder whose name is nearly this, or nothing.
 std::string did_you_mean_file(const std::string& path);

@@ -63,8 +63,9 @@ std::string meaning(const CLI::App& verb, const std::string& word) {
     if (has("brdf") && (is_brdf_spec(word) || exists(word)))
         return "; did you mean --brdf " + word + "?";
     if (parse_double(word)) return "; the numbers of one option stand together: 0,30,60";
+    if (word == "percent" || word == "%") return "; it stands behind its number: 1%";
     if (has(bare(word).c_str())) return "; did you mean --" + bare(word) + "?";
-    return {};
+    return fmt::format("; asperity help {} tells what it takes", verb.get_name());
 }
 
 [[noreturn]] void refuse_verb(const CLI::App& program, const Words& leftovers) {
@@ -87,8 +88,9 @@ std::string meaning(const CLI::App& verb, const std::string& word) {
 
 /// For an option that the verb does not have.
 std::string option_meant(const CLI::App& program, const CLI::App& verb, const std::string& name) {
+    const bool own = name.size() > 1 && verb.get_option_no_throw("--" + name) != nullptr;
     for (const CLI::App* other : program.get_subcommands({}))
-        if (name.size() > 1 && other->get_option_no_throw("--" + name) != nullptr)
+        if (!own && name.size() > 1 && other->get_option_no_throw("--" + name) != nullptr)
             return fmt::format("; asperity {} has it", other->get_name());
     const std::string meant = nearest(name, option_names(verb));
     if (!meant.empty()) return "; did you mean --" + meant + "?";

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "options.h"
 
+#include "file_kind.h"
+
 #include <asperity/core/error.h>
 #include <asperity/gonio/experiment_params.h>
 #include <asperity/gonio/experiment_text.h>
@@ -188,6 +190,7 @@ bool ExperimentOptions::any_given() const {
 
 void ExperimentOptions::apply_config(Experiment& experiment, const std::string& path) {
     const ParamTable<Experiment> table = experiment_params();
+    refuse_known_kind(path, "settings", "asperity info FILE --config prints those of a result");
     std::vector<Setting> settings = parse_settings(read_text_file(path), path);
     // Sections belong to other programs, such as the studio.
     std::erase_if(settings, [](const Setting& s) { return !s.section.empty(); });

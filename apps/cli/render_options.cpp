@@ -6,12 +6,14 @@
 
 #include <asperity/core/error.h>
 #include <asperity/formats/models/model_reader.h>
+#include <asperity/params/suggest.h>
 #include <asperity/render/builtin_models.h>
 #include <asperity/render/camera_controller.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace asperity::cli {
 
@@ -326,6 +328,20 @@ Camera camera(const RenderOptions& options) {
     return orbiter.camera();
 }
 
+namespace {
+
+/// For a name that is neither built in nor a file of a model.
+[[noreturn]] void refuse_model(const OptionValue& value) {
+    const std::vector<std::string> names = render_names("model");
+    const std::string text(value.text());
+    std::string meant = did_you_mean(text, names);
+    if (meant.empty()) meant = did_you_mean_file(text);
+    value.refuse(fmt::format("'{}' is neither a file of a model nor one of {}{}", text,
+                             fmt::join(names, ", "), meant));
+}
+
+}  // namespace
+
 LoadedModel load_model(const RenderOptions& options) {
     constexpr Range kCrease = {0, 180};
     const NormalStyle style = options.value("normals").choice(kNormalStyles);
@@ -346,8 +362,9 @@ LoadedModel load_model(const RenderOptions& options) {
             for (TriangleMesh& mesh : loaded.model.meshes) set_normals(mesh, style, crease);
         }
     } else {
-        if (!io::is_model_file(name)) make_builtin_model(name);  // says which names there are
-        require_kind(name, FileKind::Model);
+        std::error_code ignored;
+        if (std::filesystem::exists(name, ignored)) require_kind(name, FileKind::Model);
+        if (!io::is_model_file(name)) refuse_model(options.value("model"));
         io::ModelReadSettings settings;
         settings.normals = style;
         settings.crease_deg = crease;

@@ -10,6 +10,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 namespace asperity {
 
@@ -44,15 +45,29 @@ double parse_real(const ParamInfo& info, std::string_view text) {
     return percent ? *value / 100 : *value;
 }
 
+/// For 100k, 10M and 64x64.
+std::string whole_cure(std::string_view text) {
+    constexpr std::array<std::pair<std::string_view, const char*>, 4> kSuffixes = {
+        {{"k", "e3"}, {"K", "e3"}, {"M", "e6"}, {"G", "e9"}}};
+    for (const auto& [suffix, power] : kSuffixes)
+        if (text.ends_with(suffix) && parse_double(text.substr(0, text.size() - 1)))
+            return fmt::format("; did you mean {}{}?", text.substr(0, text.size() - 1), power);
+    const std::size_t x = text.find('x');
+    if (x == text.npos || text.substr(0, x) != text.substr(x + 1)) return {};
+    return parse_double(text.substr(0, x)) ? fmt::format("; did you mean {}?", text.substr(0, x))
+                                           : std::string();
+}
+
 /// Digits, or a number such as 1e6 that is whole and exact.
 template <typename Whole>
 Whole parse_whole(const ParamInfo& info, std::string_view text) {
     if (const auto value = parse_integer<Whole>(text)) return *value;
     const auto real = parse_double(text);
     const double least = std::is_signed_v<Whole> ? -0x1p53 : 0;
+    const std::string cure = real ? std::string() : whole_cure(text);
     if (!real || *real != std::floor(*real) || *real < least || *real > 0x1p53)
         refuse(info, in_quotes(text) + " is not a whole number" +
-                         (std::is_signed_v<Whole> ? "" : " in 0 .. 2^64 - 1"));
+                         (std::is_signed_v<Whole> ? "" : " in 0 .. 2^64 - 1") + cure);
     return static_cast<Whole>(*real);
 }
 
@@ -110,6 +125,10 @@ std::vector<double> parse_list(const ParamInfo& info, std::string_view text) {
 
 void check_number(const ParamInfo& info, double value, const std::string& text) {
     if (info.range.contains(value)) return;
+    // Who writes a wavelength in micrometres means one a thousand times as large in nm.
+    if (info.unit == "nm" && info.range.contains(1000 * value))
+        refuse(info, in_quotes(text) + " " + info.range.rule() + " nm; did you mean " +
+                         shortest(1000 * value) + "?");
     // Who writes a share as 2 means two in a hundred.
     const bool hundredths = info.percent && value >= 1 && value < 100;
     refuse(info, in_quotes(text) + " " + info.range.rule() +
@@ -204,6 +223,12 @@ void check(const ParamInfo& info, const ParamValue& value) {
     else if (const auto* real = std::get_if<double>(&value))
         check_number(info, *real, shortest(*real));
     else if (const auto* list = std::get_if<std::vector<double>>(&value)) {
+        // Who writes 0,3 as in a language with a decimal comma
+        const bool comma = info.type == ParamType::Pair && list->size() == 2 && (*list)[0] == 0 &&
+                           !info.range.contains(0) && info.range.contains((*list)[1] / 10);
+        if (comma)
+            refuse(info, fmt::format("'0' {}; did you mean 0.{}?", info.range.rule(),
+                                     shortest((*list)[1])));
         for (const double entry : *list)
             if (!(std::isnan(entry) && info.type == ParamType::Pair && !info.absent.empty()))
                 check_number(info, entry, shortest(entry));

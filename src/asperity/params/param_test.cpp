@@ -132,6 +132,9 @@ TEST(Param, RefusesWithTheRule) {
     expect_refused("angles", "0:80:1e-9", "'0:80:1e-9' is more than 10000 numbers");
     expect_refused("angles", "0:120:60", "'120' must be at least 0 and below 90");
     expect_refused("colour", "bleu", "'bleu' is none of red, blue; did you mean blue?");
+    expect_refused("size", "0,3", "'0' must be above 0; did you mean 0.3?");
+    expect_refused("bulbs", "2k", "'2k' is not a whole number; did you mean 2e3?");
+    expect_refused("bulbs", "4x4", "'4x4' is not a whole number; did you mean 4?");
     expect_refused("share", "2", "'2' must be above 0 and at most 1; did you mean 2%?");
     expect_refused("power-used", "4 px", "'4 px' is not a number; write 4, it is taken in W");
     expect_refused("power-used", "2,5", "'2,5' is not a number; did you mean 2.5?");

@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What beginners type. Each mistake is answered in one line that names the cure, with the right exit
+code, and leaves no file behind."""
+import os
+import re
+import subprocess
+import sys
+
+from program import SMALL, ProgramTest, main
+
+# What was typed, the exit code, and the cure that the answer has to name.
+MISTAKES = [
+    # the verb
+    ("simualte", 2, "did you mean simulate?"),
+    ("gaussian --alpha 0.3", 2, "did you mean asperity surface gaussian?"),
+    ("metal.asperity", 2, "did you mean asperity info metal.asperity?"),
+    ("--alpha 0.3 simulate", 2, "'--alpha' stands before the verb"),
+    ("--alpha 0.3", 2, "the verb comes first"),
+    ("help simulte", 2, "did you mean simulate?"),
+    # the order, words without dashes
+    ("simulate gaussian", 2, "did you mean --surface gaussian?"),
+    ("simulate heights.gsf", 2, "did you mean --surface heights.gsf?"),
+    ("simulate alpha 0.3", 2, "did you mean --alpha?"),
+    ("simulate -size 64", 2, "did you mean --size?"),
+    ("simulate --theta 30 60", 2, "stand together: 0,30,60"),
+    ("simulate --until 1 percent", 2, "1%"),
+    ("render metal.asperity -o a.png", 2, "did you mean --brdf metal.asperity?"),
+    ("info metal.asperity other", 2, "asperity help info"),
+    # an option misspelt, or of another verb or kind
+    ("simulate --surface gaussian --alpa 0.3", 2, "did you mean --alpha?"),
+    ("info metal.asperity --jason", 2, "did you mean --json?"),
+    ("surface gaussian --theta 30", 2, "asperity simulate has it"),
+    ("simulate --surface gaussian --roughness 0.2", 2, "it is for thesis"),
+    ("simulate --surface thesis --alpha 0.3", 2, "it is for gaussian, ggx"),
+    ("surface gaussian --look normals", 2, "it is for --png"),
+    ("export metal.asperity -o x.csv --colour-map grey", 2, "-o X.png"),
+    ("render --camera-position 0,0,2 --camera panorama --width 8 --height 8 -o a.png", 2,
+     "--width 8 --height 4"),
+    # a name misspelt
+    ("simulate --surface gausian", 2, "did you mean gaussian?"),
+    ("simulate --surface gaussian:alpa=0.3", 2, "did you mean alpha?"),
+    ("simulate --material gold", 2, "did you mean Au?"),
+    ("simulate --material au", 2, "did you mean Au?"),
+    ("simulate --fresnel schlik", 2, "did you mean schlick?"),
+    ("render --model kont -o a.png", 2, "did you mean knot?"),
+    ("render --brdf cook-torance:roughness=0.3 -o a.png", 4, "did you mean cook-torrance?"),
+    ("render --brdf ggx:alfa=0.3 -o a.png", 2, "did you mean alpha?"),
+    ("export metal.asperity -o x.png --colour-map virids", 2, "did you mean viridis?"),
+    # a unit, a number
+    ("simulate --theta 30deg", 2, "write 30, it is taken in degrees"),
+    ("simulate --theta 90", 2, "below 90 degrees"),
+    ("simulate --theta 0:80", 2, "such as 0:80:10"),
+    ("simulate --until 1", 2, "did you mean 1%?"),
+    ("simulate --material Au --wavelengths 0.55", 2, "did you mean 550?"),
+    ("simulate --material Au --wavelengths 550nm", 2, "write 550, it is taken in nm"),
+    ("simulate --surface gaussian --alpha 0,3", 2, "did you mean 0.3?"),
+    ("simulate --rays 100k", 2, "did you mean 100e3?"),
+    ("simulate --size 64x64", 2, "did you mean 64?"),
+    ("gloss --surface gaussian --geometry 45", 2, "20, 60 and 85"),
+    # a file of another kind, or of another name
+    ("info heights.gsf", 3, "it is a heightfield (gsf), not a result"),
+    ("compare metal.asperity heights.gsf", 3, "asperity simulate --surface heights.gsf measures it"),
+    ("simulate --surface metal.asperity", 3, "asperity info metal.asperity shows it"),
+    ("simulate --surface triangle.obj", 3, "asperity render --model triangle.obj shows it"),
+    ("simulate --config metal.asperity", 3, "asperity info FILE --config"),
+    ("render --model heights.gsf -o a.png", 3, "asperity simulate --surface heights.gsf"),
+    ("render --light picture.exr -o a.png", 2, "did you mean env:picture.exr?"),
+    ("render --light env:picture.png -o a.png", 3, "asperity render -o X.exr"),
+    ("info metl.asperity", 4, "did you mean metal.asperity?"),
+    ("simulate --surface heights.gfs", 4, "did you mean heights.gsf?"),
+    # the output
+    ("simulate -o r.exr", 2, "asperity export r.asperity -o X.exr"),
+    ("simulate -o", 2, "--output needs a value"),
+    ("surface gaussian -o a.png", 2, "--png draws a picture"),
+    ("render -o a.jpg", 2, ".png or .exr"),
+    ("merge metal.asperity", 2, "needs -o FILE"),
+    ("simulate --resume", 2, "needs -o FILE"),
+    ("refine metal.asperity", 2, "needs --until"),
+    ("compare metal.asperity", 2, "two result files"),
+]
+
+
+class Mistakes(ProgramTest):
+    def test_each_is_answered_with_its_cure(self):
+        self.passes("surface", "gaussian", "--size", 32, "--quiet", "-o", "heights.gsf")
+        self.passes("simulate", *SMALL, "--theta", 0, "--quiet", "-o", "metal.asperity")
+        self.passes("render", "--model", "sphere", "--width", 8, "--height", 8, "--spp", 1,
+                    "--quiet", "-o", "picture.png", "-o", "picture.exr")
+        with open("triangle.obj", "w", encoding="utf-8") as file:
+            file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        there = sorted(os.listdir("."))
+        self.assertGreaterEqual(len(MISTAKES), 30)
+        for typed, code, cure in MISTAKES:
+            with self.subTest(typed):
+                self.fails(code, *typed.split(), saying=cure)
+                self.assert_files(*there)
+
+
+class Manual(ProgramTest):
+    """Manual and completion are made from the options the program has."""
+
+    def verbs(self):
+        lines = self.passes("help").split("\n\n")[2].splitlines()
+        return [line.split()[0] for line in lines]
+
+    def options(self, verb):
+        text = self.passes("help", verb).split("\nExamples")[0]
+        found = re.findall(r"^  (?:(-\w), |    )(--[\w-]+)", text, re.M)
+        return {name for names in found for name in names if name}
+
+    def test_every_option_has_its_entry(self):
+        self.passes("reference", "--format", "man", "-o", "man/")
+        self.assertEqual(sorted(os.listdir("man")),
+                         sorted(["asperity.1"] + [f"asperity-{verb}.1" for verb in self.verbs()]))
+        for verb in self.verbs():
+            page = self.passes("reference", "--format", "man", verb)
+            with open(f"man/asperity-{verb}.1", encoding="utf-8") as file:
+                self.assertEqual(file.read(), page)
+            for option in self.options(verb):
+                self.assertIn("\\fB" + option.replace("-", "\\-") + "\\fR", page, verb)
+        # A judge that is not ours: no warning of any kind
+        for name in os.listdir("man"):
+            done = subprocess.run(["groff", "-man", "-k", "-ww", "-Tutf8", f"man/{name}"],
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=True)
+            self.assertEqual(done.stderr, b"", name)
+            self.assertIn(b"asperity", done.stdout)
+        self.fails(2, "reference", "--format", "mann", saying="man")
+        self.fails(2, "reference", "simulate", saying="--format man")
+
+    def complete(self, *words):
+        script = self.passes("reference", "--format", "bash")
+        ask = (f"{script}\nCOMP_WORDS=({' '.join(repr(word) for word in words)}); "
+               f"COMP_CWORD={len(words) - 1}; _asperity; printf '%s\\n' \"${{COMPREPLY[@]}}\"")
+        return set(subprocess.run(["bash", "-c", ask], stdout=subprocess.PIPE, check=True,
+                                  text=True).stdout.split())
+
+    def test_bash_completes(self):
+        self.assertEqual(self.complete("asperity", "sim"), {"simulate"})
+        self.assertLessEqual(set(self.verbs()), self.complete("asperity", ""))
+        for verb in self.verbs():
+            self.assertLessEqual(self.options(verb), self.complete("asperity", verb, "-"), verb)
+        self.assertEqual(self.complete("asperity", "render", "--tonemap", ""),
+                         {"none", "reinhard", "aces", "thesis"})
+        self.assertEqual(self.complete("asperity", "simulate", "--detector", "eq"), {"equal-area"})
+        with open("gauge.gsf", "w", encoding="utf-8"):
+            pass
+        self.assertEqual(self.complete("asperity", "simulate", "--surface", "ga"),
+                         {"gaussian", "gauge.gsf"})
+
+
+if __name__ == "__main__":
+    sys.exit(main())
