@@ -9,6 +9,8 @@
 #include <asperity/formats/heights/heights_format.h>
 #include <asperity/gonio/experiment_params.h>
 #include <asperity/optics/materials.h>
+#include <asperity/plots/files/plot_file_params.h>
+#include <asperity/plots/plot_settings.h>
 #include <asperity/surface/surface_kinds.h>
 #include <fmt/format.h>
 
@@ -44,6 +46,13 @@ Words names_for(const CLI::App& verb, const std::string& option) {
     if (names.empty() && option == "format" && verb.get_option_no_throw("--surface"))
         for (const io::HeightsFormat& format : heights.rows())
             if (format.open) names.push_back(format.name);
+    if (verb.get_name() == "plot") {
+        if (option == "subjects")
+            for (const BsdfModel& model : bsdf_models()) names.push_back(model.name);
+        if (names.empty()) names = choices_in(plots::plot_params(), option);
+        if (names.empty()) names = choices_in(plots::plot_file_params(), option);
+        return names;
+    }
     if (names.empty()) names = choices_in(experiment_params(), option);
     if (names.empty() && verb.get_name() == "fit") names = choices_in(fit_params(), option);
     if (names.empty() && verb.get_option_no_throw("--tonemap")) names = render_names(option);

@@ -63,10 +63,10 @@ int run_program(int argc, char** argv) {
     program.allow_extras();
     program.require_subcommand(0, 1);
     const std::vector<Verb> verbs = {
-        add_surface(program),  add_simulate(program), add_refine(program),  add_merge(program),
-        add_gloss(program),    add_info(program),     add_compare(program), add_fit(program),
-        add_render(program),   add_sheet(program),    add_export(program),  add_reference(program),
-        add_selftest(program), add_help(program)};
+        add_surface(program),   add_simulate(program), add_refine(program),  add_merge(program),
+        add_gloss(program),     add_info(program),     add_compare(program), add_fit(program),
+        add_render(program),    add_sheet(program),    add_plot(program),    add_export(program),
+        add_reference(program), add_selftest(program), add_help(program)};
     for (const Verb& verb : verbs) verb.app->allow_extras();
 
     try {

@@ -11,6 +11,8 @@
 #include <asperity/core/error.h>
 #include <asperity/formats/atomic_file.h>
 #include <asperity/gonio/experiment_params.h>
+#include <asperity/plots/files/plot_file_params.h>
+#include <asperity/plots/plot_settings.h>
 #include <asperity/surface/surface_kinds.h>
 
 #include <fmt/format.h>
@@ -63,9 +65,11 @@ std::string values(const ParamInfo& info) {
     return text;
 }
 
-std::string settings_page() {
+/// The settings of a table, under the headings of their groups.
+template <typename Settings>
+std::string settings_page(const ParamTable<Settings>& table) {
     std::string text, group;
-    for (const Param<Experiment>& param : experiment_params()) {
+    for (const Param<Settings>& param : table) {
         const ParamInfo& info = param.info;
         if (group != info.group) {
             group = info.group;
@@ -121,7 +125,10 @@ class ReferenceVerb {
                 throw Error(ErrorCode::Usage, "it is for --format man",
                             option == verb_ ? text_of(verb_) : "output");
         if (folder_->count() > 0) return write_all(text_of(folder_));
-        if (format == "markdown") write_out(kOpening + kinds_page() + settings_page());
+        if (format == "markdown")
+            write_out(kOpening + kinds_page() + settings_page(experiment_params()) +
+                      settings_page(plots::plot_params()) +
+                      settings_page(plots::plot_file_params()));
         if (format == "bash") write_out(bash_completion(*program_));
         if (format == "zsh") write_out(zsh_completion(*program_));
         if (format == "man")

@@ -25,6 +25,7 @@ Verb add_compare(CLI::App& program);
 Verb add_fit(CLI::App& program);
 Verb add_render(CLI::App& program);
 Verb add_sheet(CLI::App& program);
+Verb add_plot(CLI::App& program);
 Verb add_export(CLI::App& program);
 Verb add_reference(CLI::App& program);
 Verb add_selftest(CLI::App& program);

@@ -75,6 +75,7 @@
 #include <asperity/pictures/residual_sheet.h>
 #include <asperity/plots/canvas.h>
 #include <asperity/plots/curves_of.h>
+#include <asperity/plots/files/plot_file_params.h>
 #include <asperity/plots/files/write_plot.h>
 #include <asperity/plots/plot.h>
 #include <asperity/plots/plot_axis.h>
@@ -82,8 +83,12 @@
 #include <asperity/plots/plot_disc.h>
 #include <asperity/plots/plot_frame.h>
 #include <asperity/plots/plot_hemisphere.h>
+#include <asperity/plots/plot_kinds.h>
 #include <asperity/plots/plot_polar.h>
+#include <asperity/plots/plot_settings.h>
+#include <asperity/plots/plot_solid.h>
 #include <asperity/plots/plot_style.h>
+#include <asperity/plots/solid_raster.h>
 #include <asperity/render/builtin_models.h>
 #include <asperity/render/camera.h>
 #include <asperity/render/camera_controller.h>

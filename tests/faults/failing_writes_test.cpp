@@ -12,6 +12,7 @@
 #include <asperity/formats/test_files.h>
 #include <asperity/gonio/test_measurements.h>
 #include <asperity/pictures/pictures.h>
+#include <asperity/plots/files/write_plot.h>
 #include <fcntl.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -112,6 +113,11 @@ std::vector<Writer> writers() {
     list.push_back({"surface.png", [=](const std::string& path) {
                         write_surface_png(surface, path, SurfaceLook::Shaded);
                     }});
+    for (const char* name : {"plot.svg", "plot.pdf", "plot.png", "plot.csv"})
+        list.push_back({name, [](const std::string& path) {
+                            asperity::plots::write_plot(asperity::plots::MessagePlot("nothing"), {},
+                                                        path);
+                        }});
     list.push_back({"picture.exr", [=](const std::string& path) {
                         write_render_exr(film, {{"model", "sphere"}}, path);
                     }});

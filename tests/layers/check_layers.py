@@ -41,7 +41,7 @@ MAY_SEE = {
                       "formats/results", "detector"},
     "pictures": {"core", "surface", "tracing", "gonio", "bsdf", "measured", "render", "formats", "detector"},
     "plots": {"core", "params", "optics", "surface", "gonio", "bsdf", "measured", "pictures", "detector"},
-    "plots/files": {"core", "formats", "plots"},
+    "plots/files": {"core", "params", "formats", "plots"},
 }
 
 # First folder, or the whole name, of the headers that apps must leave to the library.

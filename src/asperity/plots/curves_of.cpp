@@ -102,10 +102,14 @@ std::vector<PlotCurve> albedo_curves(const Measurement& measurement,
     add("all", "albedo [1]", PlotInk::Total);
     const int shown = std::min(orders, measurement.bounces());
     for (int k = 1; k <= shown; ++k) {
-        const std::string order =
-            std::to_string(k) + (k == orders && measurement.bounces() > orders ? "+" : "");
-        add(order, fmt::format("albedo of order {} [1]", order),
+        const bool rest = k == orders && measurement.bounces() > orders;
+        const std::string order = std::to_string(k) + (rest ? "+" : "");
+        const std::string name = rest     ? fmt::format("{} or more", k)
+                                 : k == 1 ? std::string("1 reflection")
+                                          : std::to_string(k);
+        add(name, fmt::format("albedo of order {} [1]", order),
             kInks[static_cast<std::size_t>(std::min(k, 4) - 1)]);
+        curves.back().brief = order;
     }
     for (const Layer* layer : layers) {
         const AlbedoByBounce albedo =

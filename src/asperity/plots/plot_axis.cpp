@@ -89,7 +89,7 @@ std::vector<PlotTick> log_ticks(const PlotAxis& axis, int count) {
             const bool labelled = multiple == 1 && (last - decade) % stride == 0;
             if (labelled)
                 ticks.push_back({value, power_of_ten(decade)});
-            else if (stride == 1)
+            else if (stride == 1 || multiple == 1)
                 ticks.push_back({value, {}});
         }
     return ticks;
@@ -114,7 +114,9 @@ std::vector<PlotTick> PlotAxis::ticks(int count) const {
 PlotAxis axis_up_to(double top, bool log, double decades) {
     const double end = top > 0 && std::isfinite(top) ? top : 1.0;
     if (log) {
-        const double high = std::pow(10.0, std::ceil(std::log10(end) - kSlack));
+        // A power of ten, or twice one: no empty decade above the values
+        const double decade = std::pow(10.0, std::ceil(std::log10(end) - kSlack));
+        const double high = end <= 0.2 * decade * (1 + kSlack) ? 0.2 * decade : decade;
         return {{}, high * std::pow(10.0, -decades), high, true, 0};
     }
     // A fifth of a decade apart, so that a curve fills the height

@@ -30,6 +30,7 @@ struct CurveSet {
     std::string y_name, y_unit;  ///< "f", "sr⁻¹"
     bool error_band = true;      ///< errors are shown
     std::string note = {};       ///< below the title, what a reader should know of the curves
+    double height_share = 0.66;  ///< of the width, where the plot may choose its height
     std::vector<PlotCurve> curves;
     std::vector<PlotTable::Column> more;  ///< columns of a table only, over the x of the first
 

@@ -55,7 +55,9 @@ class CurvePlot final : public Plot {
     std::optional<PlotReading> reading(Place place, const Box& area,
                                        const PlotStyle& style) const override;
     PlotTable table() const override { return set_.table(); }
-    double height_for(double width, const PlotStyle&) const override { return 0.66 * width; }
+    double height_for(double width, const PlotStyle&) const override {
+        return set_.height_share * width;
+    }
     /// The axes as paint() has them in `area`.
     PlotFrame frame(const Box& area, const PlotStyle& style) const;
 

@@ -140,10 +140,13 @@ void HemispherePlot::paint_grid(Canvas& canvas, const Box& disc, const PlotStyle
     canvas.line(place_of(disc, kPi / 2, kPi / 2), place_of(disc, kPi / 2, -kPi / 2), faint);
     canvas.circle(disc.centre(), 0.5 * disc.width, {style.faint, 1});
     for (int phi = 0; phi < 360; phi += 90) {
-        const double reach = 0.5 * disc.width + (phi % 180 == 0 ? 1.2 : 0.75) * line;
+        const double reach = 0.5 * disc.width + (phi % 180 == 0 ? 0.4 : 0.75) * line;
         const Place along{std::cos(radians(phi)), -std::sin(radians(phi))};
+        const TextAlign align = phi == 0     ? TextAlign::Left
+                                : phi == 180 ? TextAlign::Right
+                                             : TextAlign::Centre;
         canvas.text(disc.centre() + reach * along, fmt::format("{}°", phi), style.small,
-                    style.faint, TextAlign::Centre);
+                    style.faint, align);
     }
 }
 
@@ -198,15 +201,19 @@ void paint_colour_bar(Canvas& canvas, const Box& bar, const PlotStyle& style,
     canvas.picture(bar, colours);
     canvas.frame(bar, {style.faint, 1});
     const PlotAxis axis{{}, scale.low, scale.high, scale.scale == io::Scale::Log, 0};
+    const double end = bar.right() + 0.5 * line;
     for (const PlotTick& tick :
-         axis.ticks(std::max(2, static_cast<int>(bar.height / (2.5 * line))))) {
+         axis.ticks(std::max(2, static_cast<int>(bar.height / (1.8 * line))))) {
         const double y = bar.bottom() - axis.position(tick.value) * bar.height;
         const double length = (tick.label.empty() ? 0.15 : 0.3) * line;
         canvas.line({bar.right(), y}, {bar.right() + length, y}, {style.faint, 1});
-        const bool last = scale.clipped && tick.value > scale.high * (1 - 1e-6);
-        canvas.text({bar.right() + 0.45 * line, y}, last ? "≥ " + tick.label : tick.label,
-                    style.small, style.faint, TextAlign::Left);
+        if (y > bar.top + 1.1 * line)
+            canvas.text({end, y}, tick.label, style.small, style.faint, TextAlign::Left);
     }
+    // The upper end is always told: cells may lie above it
+    canvas.line({bar.right(), bar.top}, {bar.right() + 0.3 * line, bar.top}, {style.faint, 1});
+    canvas.text({end, bar.top}, (scale.clipped ? "≥ " : "") + value_text(scale.high), style.small,
+                style.faint, TextAlign::Left);
     canvas.text({bar.left - 0.3 * line, bar.top - 1.15 * line}, name, style.font, style.text,
                 TextAlign::Left);
 }

@@ -12,7 +12,7 @@ namespace asperity::plots {
 namespace {
 
 // Room about the disc, in lines: for the angles, and for the values and their name
-constexpr double kAbove = 1.6, kBelow = 2.7, kBeside = 2.1;
+constexpr double kAbove = 1.5, kBelow = 2.7, kBeside = 2.7;
 
 double distance(const Box& box, Place from) {
     const double x = std::clamp(from.x, box.left, box.right());
@@ -49,8 +49,12 @@ void PolarFrame::paint_angles(Canvas& canvas) const {
         canvas.line(on_circle(theta, from), on_circle(theta, radius_),
                     {labelled ? style_.grid : style_.faint, 1});
         if (!labelled) continue;
-        canvas.text(on_circle(theta, radius_ + 1.1 * line), number_label(theta, 30) + "°",
-                    style_.small, style_.faint, TextAlign::Centre);
+        const TextAlign align = theta < -45  ? TextAlign::Right
+                                : theta > 45 ? TextAlign::Left
+                                             : TextAlign::Centre;
+        const double beyond = (align == TextAlign::Centre ? 0.85 : 0.45) * line;
+        canvas.text(on_circle(theta, radius_ + beyond), number_label(theta, 30) + "°", style_.small,
+                    style_.faint, align);
     }
 }
 

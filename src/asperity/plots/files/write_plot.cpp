@@ -96,7 +96,10 @@ std::string plot_bytes(const Plot& plot, const PlotFileSettings& settings,
                                           : PlotStyle::light(measure, settings.font_size);
     const double height =
         settings.height > 0 ? settings.height : std::ceil(plot.height_for(settings.width, style));
-    const Size size{settings.width, height};
+    Size size{settings.width, height};
+    if (ending == "png")  // whole pixels
+        size = {std::round(settings.scale * size.width) / settings.scale,
+                std::round(settings.scale * size.height) / settings.scale};
     std::string bytes;
     const Surface surface = make_surface(ending, size, settings.scale, &bytes);
     const double scale = ending == "svg" ? 1 : ending == "pdf" ? kPointsPerUnit : settings.scale;
