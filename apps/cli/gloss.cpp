@@ -48,6 +48,8 @@ struct Interference {
 };
 
 std::string with_error(const WithError& figure) {
+    // Where no ray came, nothing is known of the error either
+    if (figure.value == 0 && figure.error == 0) return "0 (no ray)";
     return cli::with_error(figure.value, figure.error);
 }
 

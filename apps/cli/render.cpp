@@ -97,12 +97,20 @@ class RenderVerb {
     void check_outputs() const {
         if (output_->count() == 0)
             throw Error(ErrorCode::Usage, "render needs -o with a name ending in .png or .exr");
-        for (const std::string& path : output_->results()) {
+        const std::vector<std::string> paths = output_->results();
+        for (const std::string& path : paths) {
             if (path == kStandardOutput) continue;
             if (ending(path) != "png" && ending(path) != "exr")
                 throw Error(ErrorCode::Usage, "the name must end in .png or .exr", path);
             check_output_file(path);
         }
+        const bool screens = std::any_of(paths.begin(), paths.end(), [](const std::string& path) {
+            return path == kStandardOutput || ending(path) == "png";
+        });
+        for (const char* option : {"tonemap", "exposure", "transfer"})
+            if (!screens && options_.given(option))
+                throw Error(ErrorCode::Usage, "it is for a PNG: an EXR holds the light as it is",
+                            option);
         if (piped() && json_)
             throw Error(ErrorCode::Usage,
                         "standard output takes the picture: -o FILE leaves it free", "json");

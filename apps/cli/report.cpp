@@ -68,7 +68,7 @@ class LayerTable {
 
     std::string text() const {
         const std::vector<std::string> heads = this->heads();
-        Table table(heads, 2 + (phi_ ? 1 : 0));
+        Table table(heads, std::size_t{2} + (phi_ ? 1 : 0) + (bands_ ? 1 : 0));
         for (const Layer& layer : m_.layers) {
             for (int c = 0; c < (bands_ ? m_.channels() : 1); ++c) {
                 std::vector<std::string> cells = row(layer, c);

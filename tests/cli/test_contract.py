@@ -193,6 +193,26 @@ class Simulate(ProgramTest):
         self.assertGreater(layer["launched"], 256)
         self.assertLess(layer["albedo_stderr"][0] / layer["albedo"][0], 0.05)
 
+    def test_tables_fit_a_terminal_and_shares_add_up(self):
+        """The widest there is: two azimuths, three bands, light lost at the edge, a reference."""
+        text = self.passes("simulate", "--surface", "gaussian", *SMALL, "--theta", "10,40", "--phi",
+                           "0,30", "--material", "Au", "--boundary", "finite", "-o", "r.asperity")
+        tables = [line for line in text.splitlines() if "°" in line or "layer" in line]
+        self.assertGreaterEqual(len(tables), 2 * 12)
+        self.assertLessEqual(max(map(len, tables)), 80)
+        rows = [line.split() for line in tables if "°" in line]
+        shares, edges = rows[:12], rows[12:]
+        for share, edge in zip(shares, edges):
+            self.assertEqual(share[:4], edge[:4])  # layer, theta, phi, band
+            after, lost = sum(map(float, share[5:8])), float(edge[4])
+            self.assertAlmostEqual(after, 100 * float(share[4].split("(")[0]), delta=0.06)
+            self.assertAlmostEqual(after + sum(map(float, share[8:10])) + lost, 100, delta=0.04)
+        for arguments in (("gloss", "--surface", "gaussian", *SMALL[:4], "--material", "Au"),
+                          ("compare", "r.asperity", "ggx:alpha=0.3"),
+                          ("info", "r.asperity")):
+            lines = self.passes(*arguments).splitlines()
+            self.assertLessEqual(max(len(line) for line in lines if "°" in line), 80, arguments)
+
     def test_reference(self):
         text = self.passes("simulate", "--surface", "flat", *SMALL, "--theta", 0)
         self.assertNotIn("L1", text)

@@ -33,6 +33,7 @@ MISTAKES = [
     ("simulate --surface gaussian --roughness 0.2", 2, "it is for thesis"),
     ("simulate --surface thesis --alpha 0.3", 2, "it is for gaussian, ggx"),
     ("surface gaussian --look normals", 2, "it is for --png"),
+    ("render --model sphere --exposure 1 -o a.exr", 2, "it is for a PNG"),
     ("export metal.asperity -o x.csv --colour-map grey", 2, "-o X.png"),
     ("render --camera-position 0,0,2 --camera panorama --width 8 --height 8 -o a.png", 2,
      "--width 8 --height 4"),
