@@ -16,11 +16,11 @@ namespace {
 
 constexpr const char* kClosing =
     "Each layer is one incident direction. The table shows, per layer, the albedo (the share of\n"
-    "the light that leaves again) with its standard error, how that light divides over the number\n"
-    "of reflections, what was absorbed, what was still travelling after --bounces reflections, "
-    "and\n"
-    "the L1 distance of the lobe to a reference model (0 equal, 2 apart). Ctrl-C stops and keeps\n"
-    "what is complete.\n"
+    "the light that leaves again) with the standard error of its last digits; of the incoming\n"
+    "light, what leaves after one, two and more reflections, what is absorbed and what still\n"
+    "travels after --bounces reflections; and the L1 distance of the lobe to a reference model\n"
+    "(0 equal, 2 apart). A run of more than a minute says first what will take the time. Ctrl-C\n"
+    "stops and keeps what is complete. -o - writes the result to standard output.\n"
     "\n"
     "Examples\n"
     "  asperity simulate --surface thesis --roughness 0.2 -o thesis.asperity\n"

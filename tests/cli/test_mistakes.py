@@ -148,6 +148,33 @@ class Manual(ProgramTest):
         self.assertEqual(self.complete("asperity", "simulate", "--surface", "ga"),
                          {"gaussian", "gauge.gsf"})
 
+    def test_zsh_is_told_every_option_and_its_names(self):
+        """What the script hands to zsh's own _arguments, a line each."""
+        script = self.passes("reference", "--format", "zsh")
+        self.assertTrue(script.startswith("#compdef asperity\n"))
+        with open("_asperity", "w", encoding="utf-8") as file:
+            file.write(script)
+
+        def told(*words):
+            ask = ("_arguments() { print -rl -- \"$@\" }; _describe() { print -rl -- $verbs }; "
+                   f"words=({' '.join(words)} ''); CURRENT={len(words) + 1}; source ./_asperity")
+            done = subprocess.run(["zsh", "-f", "-c", ask], stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, check=True, text=True)
+            self.assertEqual(done.stderr, "")
+            return done.stdout.splitlines()
+
+        self.assertEqual([line.split(":")[0] for line in told("asperity")], self.verbs())
+        for verb in self.verbs():
+            lines = told("asperity", verb)
+            named = {line.split("[")[0] for line in lines if line.startswith("-") and "[" in line}
+            self.assertLessEqual(self.options(verb), named, verb)
+            for line in lines[1:]:
+                # an option with its text and, where it has a value, its name and what it may be
+                self.assertRegex(line, r"^(-[\w-]+\[(\\.|[^\[\]:])*\]|\*)(:(\\.|[^:])*:.+)?$")
+        simulate = {line.split("[")[0]: line for line in told("asperity", "simulate")}
+        self.assertTrue(simulate["--material"].endswith(":NAME:(Ag Al Au Cr Cu Fe Ni Ti)"))
+        self.assertIn("files:file:_files", simulate["--surface"])
+
 
 if __name__ == "__main__":
     sys.exit(main())

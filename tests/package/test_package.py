@@ -70,8 +70,14 @@ class Package(unittest.TestCase):
         folder = f"{self.root}/usr/share/man/man1"
         verbs = re.findall(r"^  (\w+) ", said(f"{self.root}/usr/bin/asperity", "help"), re.M)
         pages = {"asperity.1"} | {f"asperity-{verb}.1" for verb in verbs if verb != "asperity"}
-        self.assertEqual(set(os.listdir(folder)), pages)
         self.assertIn("asperity-simulate.1", pages)
+        others = {f"{package}.1" for package in ("asperity-studio", "asperity-mpi")
+                  if package in self.packages}
+        self.assertEqual(set(os.listdir(folder)), pages | others)
+        for page in pages | others:
+            done = subprocess.run(["groff", "-man", "-k", "-ww", "-z", f"{folder}/{page}"],
+                                  stderr=subprocess.PIPE, check=True, text=True)
+            self.assertEqual(done.stderr, "", page)
 
     def test_completion(self):
         script = f"{self.root}/usr/share/bash-completion/completions/asperity"
