@@ -55,6 +55,10 @@ Words names_for(const CLI::App& verb, const std::string& option) {
     }
     if (names.empty()) names = choices_in(experiment_params(), option);
     if (names.empty() && verb.get_name() == "fit") names = choices_in(fit_params(), option);
+    if (names.empty() && verb.get_name() == "plot")
+        names = choices_in(plots::plot_params(), option);
+    if (names.empty() && verb.get_name() == "plot")
+        names = choices_in(plots::plot_file_params(), option);
     if (names.empty() && verb.get_option_no_throw("--tonemap")) names = render_names(option);
     return names;
 }

@@ -136,8 +136,9 @@ class PlotVerb {
                         ->allow_extra_args()
                         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
         plot_.add_to(app, plots::plot_params(), kModel);
-        output_ = add_text(app, "-o,--output", "X.svg | X.pdf | X.png | X.csv",
-                           "a drawing, a picture or the numbers", kOutput);
+        output_ = add_text(
+            app, "-o,--output", "X.svg | X.pdf | X.png | X.csv",
+            "a drawing, a picture or the numbers; - writes an SVG to standard output", kOutput);
         labels_ = add_text(app, "--labels", "A,B...", "names of the subjects", kOutput)
                       ->default_str("files and models");
         file_.add_to(app, plots::plot_file_params(), kOutput);
@@ -156,12 +157,19 @@ class PlotVerb {
         if (path.empty())
             throw Error(ErrorCode::Usage,
                         "plot needs -o with a name ending in .svg, .pdf, .png or .csv");
-        plots::check_plot_path(path);
-        check_output_file(path);
+        const bool piped = path == kStandardOutput;
+        if (!piped) plots::check_plot_path(path);
+        if (!piped) check_output_file(path);
 
         Run run(threads_.threads());
         const StopOnSignal stop(run);
         const auto plot = plots::make_plot(open_subjects(settings, run), settings, run);
+        if (piped) {
+            const StandardOutputFile drawing("svg");
+            plots::write_plot(*plot, file, drawing.path());
+            drawing.send();
+            return 0;
+        }
         plots::write_plot(*plot, file, path);
         Talk(quiet_, false)("wrote " + path + "\n");
         return 0;

@@ -266,6 +266,7 @@ class StandardOutput(ProgramTest):
                  (("surface", "gaussian", "--size", 32), None, "gsf"),
                  (("export", "r.asperity", "--format", "layers-csv"), None, "csv"),
                  (("export", "r.asperity"), None, "png"),
+                 (("plot", "r.asperity"), None, "svg"),
                  (("render", "--model", "sphere", "--width", 16, "--height", 16, "--spp", 1), None,
                   "png"))
         for arguments, _, ending in sides:

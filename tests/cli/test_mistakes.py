@@ -143,6 +143,8 @@ class Manual(ProgramTest):
         self.assertEqual(self.complete("asperity", "render", "--tonemap", ""),
                          {"none", "reinhard", "aces", "thesis"})
         self.assertEqual(self.complete("asperity", "simulate", "--detector", "eq"), {"equal-area"})
+        self.assertLessEqual({"lobe", "albedo", "psd"},
+                             self.complete("asperity", "plot", "--kind", ""))
         with open("gauge.gsf", "w", encoding="utf-8"):
             pass
         self.assertEqual(self.complete("asperity", "simulate", "--surface", "ga"),

@@ -66,6 +66,23 @@ class Package(unittest.TestCase):
         again = said(f"{BUILD}/apps/cli/asperity", "info", path)
         self.assertEqual(said(program, "info", path), again)
 
+    @unittest.skipIf(os.geteuid() != 0, "dpkg gives files to root")
+    def test_installed_run_and_removed(self):
+        """By dpkg itself, into a root that holds nothing else."""
+        root = os.path.join(self.folder.name, "clean")
+        for folder in ("info", "updates", "triggers"):
+            os.makedirs(f"{root}/var/lib/dpkg/{folder}")
+        for file in ("status", "available"):
+            with open(f"{root}/var/lib/dpkg/{file}", "w", encoding="utf-8"):
+                pass
+        # What they depend on stands outside of that root
+        dpkg = ["dpkg", f"--root={root}", "--force-depends"]
+        said(*dpkg, "-i", *self.packages.values())
+        self.assertEqual(said(f"{root}/usr/bin/asperity", "--version"), f"asperity {VERSION}\n")
+        said(*dpkg, "-r", *self.packages)
+        left = [name for folder, _, names in os.walk(f"{root}/usr") for name in names]
+        self.assertEqual(left, [])
+
     def test_manual(self):
         folder = f"{self.root}/usr/share/man/man1"
         verbs = re.findall(r"^  (\w+) ", said(f"{self.root}/usr/bin/asperity", "help"), re.M)
