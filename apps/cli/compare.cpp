@@ -137,6 +137,12 @@ class CompareVerb {
         if (b_->count() == 0) {
             throw Error(ErrorCode::Usage, "compare needs two result files, models or pictures");
         }
+        const auto beside_picture = [](const CLI::Option* a, const CLI::Option* b) {
+            if (is_picture(text_of(a)) && ending(text_of(b)) == "png")
+                require_kind(text_of(b), FileKind::Picture);
+        };
+        beside_picture(a_, b_);
+        beside_picture(b_, a_);
         if (is_picture(text_of(a_)) && is_picture(text_of(b_))) return compare_pictures();
         const Experiment experiment = experiment_.read();
         validate(experiment);

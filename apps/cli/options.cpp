@@ -122,7 +122,8 @@ void ThreadsOption::add_to(CLI::App& app) {
 
 int ThreadsOption::threads() const {
     constexpr int kMostThreads = 1024;
-    return option->count() == 0 ? 0 : parse_count("threads", text_of(option), 1, kMostThreads);
+    const bool all = option->count() == 0 || text_of(option) == "all";
+    return all ? 0 : parse_count("threads", text_of(option), 1, kMostThreads);
 }
 
 void ExperimentOptions::add_to(CLI::App& app, std::initializer_list<const char*> groups,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // asperity sheet: rendered pictures side by side, through one tone mapping.
 #include "console.h"
+#include "file_kind.h"
 #include "help.h"
 #include "options.h"
 #include "output_path.h"
@@ -114,6 +115,7 @@ class SheetVerb {
 
         std::vector<Image> images;
         for (const std::string& name : names) {
+            require_kind(name, FileKind::Picture);
             images.push_back(io::read_image(name));
             const Image &first = images.front(), &last = images.back();
             if (last.width != first.width || last.height != first.height) {

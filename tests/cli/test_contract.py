@@ -337,6 +337,18 @@ class Config(ProgramTest):
         self.assertEqual(len(info["layers"]), 2)
         self.assertEqual(run("simulate", "--config", "run.txt").stdout, "")
 
+    def test_ranges_of_angles(self):
+        """The same in a file as on the command line, and kept as the angles they stand for."""
+        with open("run.txt", "w", encoding="utf-8") as file:
+            file.write("surface = flat\nsize = 64\nresolution = 16\nrays = 2000\n"
+                       "theta = 0:0.3:0.1, 10:80:35\n")
+        told = self.json_of("simulate", "--config", "run.txt", "-o", "r.asperity")
+        self.assertIn("theta = 0,0.1,0.2,0.3,10,45,80\n",
+                      self.passes("info", "r.asperity", "--config"))
+        typed = self.json_of("simulate", "--config", "run.txt", "--theta",
+                             "0,0.1,0.2,0.3,10,45,80")
+        self.assertEqual(told["checksum"], typed["checksum"])
+
     def test_errors_name_file_and_line(self):
         for line, words in (("raiz = 3", "did you mean rays?"), ("rays = many", "rays"),
                             ("rays", "key = value"), ("quiet = perhaps", "quiet"),

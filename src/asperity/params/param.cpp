@@ -16,18 +16,43 @@ namespace asperity {
 
 namespace {
 
-/// What somebody who wrote the number with its unit or with a decimal comma should write.
+/// A unit as people write it, and as rows name it.
+struct WrittenUnit {
+    std::string_view written, name;
+};
+constexpr std::array<WrittenUnit, 12> kUnits = {{{"degrees", "degrees"},
+                                                 {"degree", "degrees"},
+                                                 {"deg", "degrees"},
+                                                 {"\u00b0", "degrees"},
+                                                 {"rad", "radians"},
+                                                 {"nm", "nm"},
+                                                 {"\u00b5m", "um"},
+                                                 {"um", "um"},
+                                                 {"mm", "mm"},
+                                                 {"px", "pixels"},
+                                                 {"cells", "cells"},
+                                                 {"%", "%"}}};
+
+/// What somebody who wrote the number with a unit should write: the number alone only where its
+/// unit is that of the row.
+std::string unit_cure(const ParamInfo& info, double value, std::string_view unit) {
+    if (unit == "%")
+        return info.range.contains(value / 100) ? "; did you mean " + shortest(value / 100) + "?"
+                                                : std::string();
+    if (unit == "um" && info.unit == "nm") value *= 1000;
+    const bool own = info.unit == unit || (unit == "um" && info.unit == "nm");
+    const std::string taken = info.unit.empty() ? "without a unit" : "in " + info.unit;
+    if (own || (unit == "pixels" && info.unit.empty()))
+        return fmt::format("; write {}, it is taken {}", shortest(value), taken);
+    return "; it is taken " + taken;
+}
+
+/// The same, also for a decimal comma.
 std::string number_cure(const ParamInfo& info, std::string_view text) {
-    constexpr std::array<std::string_view, 12> kUnits = {
-        "degrees", "degree", "deg", "\u00b0", "rad", "nm", "\u00b5m", "um", "mm", "px", "s", "%"};
-    for (const std::string_view unit : kUnits) {
-        if (!text.ends_with(unit)) continue;
-        const auto value = parse_double(trimmed(text.substr(0, text.size() - unit.size())));
-        if (!value) continue;
-        // An angle in radians is another number: only the unit can be named.
-        const std::string taken = info.unit.empty() ? "without a unit" : "in " + info.unit;
-        return unit == "rad" ? "; it is taken " + taken
-                             : fmt::format("; write {}, it is taken {}", shortest(*value), taken);
+    for (const WrittenUnit& unit : kUnits) {
+        if (!text.ends_with(unit.written)) continue;
+        const auto value = parse_double(trimmed(text.substr(0, text.size() - unit.written.size())));
+        if (value) return unit_cure(info, *value, unit.name);
     }
     std::string pointed(text);
     const std::size_t comma = pointed.find(',');
@@ -46,14 +71,14 @@ double parse_real(const ParamInfo& info, std::string_view text) {
 }
 
 /// For 100k, 10M and 64x64.
-std::string whole_cure(std::string_view text) {
+std::string whole_cure(const ParamInfo& info, std::string_view text) {
     constexpr std::array<std::pair<std::string_view, const char*>, 4> kSuffixes = {
         {{"k", "e3"}, {"K", "e3"}, {"M", "e6"}, {"G", "e9"}}};
     for (const auto& [suffix, power] : kSuffixes)
         if (text.ends_with(suffix) && parse_double(text.substr(0, text.size() - 1)))
             return fmt::format("; did you mean {}{}?", text.substr(0, text.size() - 1), power);
     const std::size_t x = text.find('x');
-    if (x == text.npos || text.substr(0, x) != text.substr(x + 1)) return {};
+    if (x == text.npos || text.substr(0, x) != text.substr(x + 1)) return number_cure(info, text);
     return parse_double(text.substr(0, x)) ? fmt::format("; did you mean {}?", text.substr(0, x))
                                            : std::string();
 }
@@ -64,7 +89,7 @@ Whole parse_whole(const ParamInfo& info, std::string_view text) {
     if (const auto value = parse_integer<Whole>(text)) return *value;
     const auto real = parse_double(text);
     const double least = std::is_signed_v<Whole> ? -0x1p53 : 0;
-    const std::string cure = real ? std::string() : whole_cure(text);
+    const std::string cure = real ? std::string() : whole_cure(info, text);
     if (!real || *real != std::floor(*real) || *real < least || *real > 0x1p53)
         refuse(info, in_quotes(text) + " is not a whole number" +
                          (std::is_signed_v<Whole> ? "" : " in 0 .. 2^64 - 1") + cure);

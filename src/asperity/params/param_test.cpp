@@ -136,7 +136,9 @@ TEST(Param, RefusesWithTheRule) {
     expect_refused("bulbs", "2k", "'2k' is not a whole number; did you mean 2e3?");
     expect_refused("bulbs", "4x4", "'4x4' is not a whole number; did you mean 4?");
     expect_refused("share", "2", "'2' must be above 0 and at most 1; did you mean 2%?");
-    expect_refused("power-used", "4 px", "'4 px' is not a number; write 4, it is taken in W");
+    expect_refused("power-used", "4 px", "'4 px' is not a number; it is taken in W");
+    expect_refused("share", "4 px", "'4 px' is not a number; write 4, it is taken without a unit");
+    expect_refused("power-used", "40%", "'40%' is not a number; did you mean 0.4?");
     expect_refused("power-used", "2,5", "'2,5' is not a number; did you mean 2.5?");
     expect_refused("colour", "green", "'green' is none of red, blue");
     expect_refused("size", "1,2,3", "'1,2,3' is more than 2 numbers");

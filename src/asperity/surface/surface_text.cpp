@@ -57,6 +57,19 @@ void apply_parts(SurfaceSettings& surface, std::string_view parts) {
         if (const std::string why = param->unused(surface); !why.empty()) refuse(param->info, why);
 }
 
+/// For "gaussian alpha=0.3" and "gaussian,alpha=0.3", which would be taken for files.
+void refuse_other_marks(std::string_view text) {
+    const std::size_t end = text.find_first_of(" ,;");
+    std::error_code ignored;
+    if (end == text.npos || text.find('=') == text.npos ||
+        std::filesystem::exists(std::string(text), ignored))
+        return;
+    const auto kind = find_surface_kind(text.substr(0, end));
+    if (!kind) return;
+    refuse(fmt::format("{}: a kind and its settings are written as {}:setting=value,setting=value",
+                       in_quotes(text), kind->name));
+}
+
 void set_file(SurfaceSettings& surface, std::string_view name) {
     if (name.empty()) refuse("the file name is empty");
     surface.kind = kSurfaceFile;
@@ -80,6 +93,7 @@ void apply_surface_spec(SurfaceSettings& surface, const std::string& spec) {
         return;
     }
     std::error_code ignored;
+    refuse_other_marks(text);
     if (looks_like_file(text) || std::filesystem::exists(std::string(text), ignored))
         return set_file(surface, text);
 
