@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "options.h"
 
+#include "console.h"
 #include "file_kind.h"
 
 #include <asperity/core/error.h>
@@ -69,6 +70,22 @@ std::string read_text_file(const std::string& path) {
     }
     text.resize(static_cast<std::size_t>(file.gcount()));
     return text;
+}
+
+/// "1,5" may be meant as 1.5, and stands for two bands.
+void tell_two_bands(const std::string& key, const std::string& value) {
+    if (key != "ior" && key != "k" && key != "f0") return;
+    const std::size_t comma = value.find(',');
+    const auto digits = [](const std::string& text) {
+        return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+    };
+    if (comma == value.npos || !digits(value.substr(0, comma)) || !digits(value.substr(comma + 1)))
+        return;
+    write_err(
+        fmt::format("asperity: note: --{} {} is two bands, {} and {}; one number of that "
+                    "kind is written {}.{}\n",
+                    key, value, value.substr(0, comma), value.substr(comma + 1),
+                    value.substr(0, comma), value.substr(comma + 1)));
 }
 
 }  // namespace
@@ -159,6 +176,7 @@ Experiment ExperimentOptions::read(const std::string& spec) {
         if (value.find_first_not_of(" \t") == value.npos)
             throw Error(ErrorCode::Usage, "the value is empty", key);
         apply_setting(experiment, key, value);
+        tell_two_bands(key, value);
         note_given(key);
     }
     refuse_unused(experiment);

@@ -230,6 +230,13 @@ class Simulate(ProgramTest):
         # Air to glass of index 1.5: ((1.5 - 1) / (1.5 + 1))^2
         self.assertIn("albedo=0.04\n", self.passes(*rough, "--ior", 1.5).replace(";", ""))
 
+    def test_a_decimal_comma_is_told(self):
+        few = ["simulate", "--surface", "flat", *SMALL, "--theta", 30, "--quiet", "--ior"]
+        self.assertIn("two bands, 1 and 5; one number of that kind is written 1.5",
+                      run(*few, "1,5").stderr)
+        for value in ("1.5", "1.5,1.6", "1,2,5"):
+            self.assertEqual(run(*few, value).stderr, "")
+
     def test_reference_of_other_channels(self):
         rough = ["simulate", "--surface", "gaussian", *SMALL, "--theta", 30, "--f0", "0.04,0.5"]
         self.assertNotIn("L1", self.passes(*rough))
