@@ -49,5 +49,8 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "virtual gonioreflectometer, library
 set(CPACK_DEBIAN_STUDIO_PACKAGE_RECOMMENDS asperity)
 # As in tools/apt.txt: what the installed headers include and the archives link with.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libtbb-dev, libfmt-dev, libopenexr-dev, libpng-dev, \
-libpugixml-dev, libtiff-dev, zlib1g-dev, libzip-dev, libembree-dev, libhwy-dev, libxxhash-dev, libzstd-dev")
+libpugixml-dev, libtiff-dev, zlib1g-dev, libzip-dev, libembree-dev, libhwy-dev, libxxhash-dev, libzstd-dev, \
+libcairo2-dev")
+# The type that plots are written in.
+set(CPACK_DEBIAN_CLI_PACKAGE_RECOMMENDS fonts-dejavu-core)
 include(CPack)

@@ -82,6 +82,11 @@ class ExportVerb {
         channel_ = add_text(app, "--channel", "NAME", "PNG: one channel, by name or number from 0",
                             kOutput)
                        ->default_str("mean of all");
+        theme_ =
+            add_text(app, "--theme", "NAME", "PNG: dark or light", kOutput)->default_str("dark");
+        app.add_flag("--own-scales", own_scales_,
+                     "PNG: each picture of a sheet has its own scale and tells where it ends")
+            ->group(kOutput);
         max_error_ =
             add_text(app, "--max-error", "E",
                      "fail when the mean L1 of what is read back is larger: 0.02 or 2%", kOutput)
@@ -275,6 +280,9 @@ class ExportVerb {
         look.projection = choose<io::Projection>(
             "projection", text_of(projection_, "sky-map"),
             {{"sky-map", io::Projection::SkyMap}, {"disk", io::Projection::Disk}});
+        look.light =
+            choose<bool>("theme", text_of(theme_, "dark"), {{"dark", false}, {"light", true}});
+        look.own_scales = own_scales_;
         look.decades = parse_positive("decades", text_of(decades_, "4"));
         constexpr double kMostDecades = 30;
         if (look.decades > kMostDecades) {
@@ -309,8 +317,8 @@ class ExportVerb {
     io::BsdfFormats formats_;
     CLI::Option *file_ = nullptr, *output_ = nullptr, *format_ = nullptr, *colour_map_ = nullptr,
                 *scale_ = nullptr, *max_error_ = nullptr, *decades_ = nullptr,
-                *projection_ = nullptr, *channel_ = nullptr;
-    bool quiet_ = false, json_ = false, snippet_ = false;
+                *projection_ = nullptr, *channel_ = nullptr, *theme_ = nullptr;
+    bool quiet_ = false, json_ = false, snippet_ = false, own_scales_ = false;
 };
 
 }  // namespace

@@ -42,8 +42,13 @@ class SurfaceVerb {
                            "save the heights: .gsf, .exr or .txt; - writes .gsf to standard output",
                            kOutput);
         png_ = add_text(app, "--png", "FILE", "draw the surface seen from above", kOutput);
-        look_ = add_text(app, "--look", "NAME", "of the picture: shaded or normals", kOutput)
+        look_ = add_text(app, "--look", "NAME",
+                         "of the picture: shaded, with a scale bar and a key of the heights; bare, "
+                         "the same without; normals, as the thesis draws them",
+                         kOutput)
                     ->default_str("shaded");
+        theme_ = add_text(app, "--theme", "NAME", "of the shaded picture: light or dark", kOutput)
+                     ->default_str("light");
         app.add_flag("--before", before_,
                      "with --png, of a file: draw the heights as the file has them and, beside "
                      "them, made ready")
@@ -113,15 +118,23 @@ class SurfaceVerb {
               Run& run) const {
         if (before_)
             io::write_before_after_png(io::read_topography(settings, run), patch, text_of(png_));
+        else if (text_of(look_, "shaded") == "shaded")
+            io::write_relief_png(surface, text_of(png_), is_dark());
         else
             io::write_surface_png(surface, text_of(png_), look());
     }
 
+    bool is_dark() const {
+        const std::string name = text_of(theme_, "light");
+        if (name == "dark" || name == "light") return name == "dark";
+        throw Error(ErrorCode::Usage, fmt::format("'{}' is neither light nor dark", name), "theme");
+    }
+
     io::SurfaceLook look() const {
         const std::string name = text_of(look_, "shaded");
-        if (name == "shaded") return io::SurfaceLook::Shaded;
+        if (name == "shaded" || name == "bare") return io::SurfaceLook::Shaded;
         if (name == "normals") return io::SurfaceLook::Normals;
-        throw Error(ErrorCode::Usage, fmt::format("'{}' is neither shaded nor normals", name),
+        throw Error(ErrorCode::Usage, fmt::format("'{}' is none of shaded, bare, normals", name),
                     "look");
     }
 
@@ -129,6 +142,10 @@ class SurfaceVerb {
         look();
         if (look_->count() > 0 && png_->count() == 0)
             throw Error(ErrorCode::Usage, "it is for --png, the picture", "look");
+        is_dark();
+        if (theme_->count() > 0 &&
+            (png_->count() == 0 || before_ || text_of(look_, "shaded") != "shaded"))
+            throw Error(ErrorCode::Usage, "it is for --png in the look shaded", "theme");
         if (output_->count() > 0) {
             const std::string path = text_of(output_);
             if (path == kStandardOutput && json_)
@@ -163,7 +180,8 @@ class SurfaceVerb {
 
     ExperimentOptions experiment_;
     ThreadsOption threads_;
-    CLI::Option *spec_ = nullptr, *output_ = nullptr, *png_ = nullptr, *look_ = nullptr;
+    CLI::Option *spec_ = nullptr, *output_ = nullptr, *png_ = nullptr, *look_ = nullptr,
+                *theme_ = nullptr;
     bool stats_ = false, json_ = false, quiet_ = false, list_ = false, before_ = false;
 };
 

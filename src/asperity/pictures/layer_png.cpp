@@ -37,10 +37,10 @@ struct Layout {
     int width = 0, height = 0;
     Theme theme;
 
-    Layout(const Detector& detector, Projection projection)
-        : hemisphere(painted_size(detector, projection)) {
+    Layout(const Detector& detector, const SkyMapSettings& settings)
+        : hemisphere(painted_size(detector, settings.projection)), theme(theme_of(settings)) {
         unit = std::max(1.0, hemisphere.width / 1100.0);
-        const bool disk = projection == Projection::Disk;
+        const bool disk = settings.projection == Projection::Disk;
         hemisphere.x = pixels(disk ? 66 : 64);
         hemisphere.y = pixels(disk ? 122 : 84);
         width = hemisphere.right() + pixels(disk ? 160 : 124);
@@ -116,8 +116,8 @@ void draw_disk_axes(Canvas& canvas, const Layout& layout) {
         const Point at = place_of(radians(theta), radians(255), area, Projection::Disk);
         draw_text(canvas, {at.x + 1, at.y - 4 * unit + 1}, fmt::format("θₒ {}°", theta),
                   {label.size, {0, 0, 0}, 1.3}, Align::Centre);
-        draw_text(canvas, {at.x, at.y - 4 * unit}, fmt::format("θₒ {}°", theta), label,
-                  Align::Centre);
+        draw_text(canvas, {at.x, at.y - 4 * unit}, fmt::format("θₒ {}°", theta),
+                  {label.size, {0.925, 0.933, 0.945}}, Align::Centre);
     }
 }
 
@@ -147,10 +147,11 @@ void draw_legend(Canvas& canvas, const Layout& layout, const Measurement& m, con
     const int left = layout.pixels(64);
     const double room = layout.width - left - layout.pixels(24);
     const std::string title = title_of(m, layer, settings);
-    draw_text(canvas, {1.0 * left, 36 * layout.unit}, title, {theme.title, theme.text, 1.1});
-    draw_text(canvas, {1.0 * left, 60 * layout.unit},
-              shortened(subtitle_of(m, layer, settings), theme.small, room),
-              {theme.small, theme.faint_text});
+    draw_text(canvas, {1.0 * left, 36 * layout.unit}, title,
+              {fitting_size(title, theme.title, room), theme.text, 1.1});
+    const std::string subtitle = subtitle_of(m, layer, settings);
+    draw_text(canvas, {1.0 * left, 60 * layout.unit}, subtitle,
+              {fitting_size(subtitle, theme.small, room), theme.faint_text});
 
     draw_grid(canvas, area, settings.projection, 0.16);
     draw_marks(canvas, area, layer, settings.projection, 6 * layout.unit);
@@ -186,7 +187,7 @@ void write_layer_png(const Measurement& measurement, const Layer& layer, const s
                      const SkyMapSettings& settings) {
     check_settings(measurement, settings);
     const ValueScale scale = value_scale(measurement, {&layer}, settings);
-    const Theme theme;
+    const Theme theme = theme_of(settings);
     if (!settings.legend) {
         const Rect area = painted_size(measurement.detector, settings.projection);
         Canvas canvas(area.width, area.height, theme.background);
@@ -194,7 +195,7 @@ void write_layer_png(const Measurement& measurement, const Layer& layer, const s
         write_png(canvas, path);
         return;
     }
-    const Layout layout(measurement.detector, settings.projection);
+    const Layout layout(measurement.detector, settings);
     Canvas canvas(layout.width, layout.height, theme.background);
     paint_layer(canvas, layout.hemisphere, measurement, layer, scale, settings);
     draw_legend(canvas, layout, measurement, layer, scale, settings);

@@ -248,6 +248,45 @@ TEST(LayerSheet, HoldsFifteenDisksInThreeRows) {
     }
 }
 
+// The first layer reflects everywhere, the second into one cell: beside that the first is dark on a
+// linear scale of both, and as bright as can be on its own.
+TEST(LayerSheet, EachPictureMayHaveItsOwnScale) {
+    const test::TemporaryFolder folder;
+    Measurement m = test::empty_measurement(DetectorKind::LatLong, 32, {"all"}, {0, 30});
+    for (int cell = 0; cell < m.detector.cells(); ++cell)
+        test::add_rays(m, m.layers[0], 0, 0, cell, 0.5);
+    for (int ray = 0; ray < 200; ++ray) test::add_rays(m, m.layers[1], 0, 0, 100, 1);
+    SkyMapSettings settings = bare(Projection::SkyMap);
+    settings.scale = Scale::Linear;
+    const auto brightness_of_first = [&] {
+        write_layer_sheet(m, folder / "a.png", settings);
+        const ReadPng png(folder / "a.png");
+        double sum = 0;
+        for (int y = 70; y < png.height - 70; ++y)
+            for (int x = 66; x < 600; ++x) sum += bright(png.at(x, y));
+        return sum / (534 * (png.height - 140));
+    };
+    const double beside_the_other = brightness_of_first();
+    settings.own_scales = true;
+    EXPECT_GT(brightness_of_first(), 1.25 * beside_the_other);
+}
+
+TEST(LayerSheet, IsDarkOnWhiteForPaper) {
+    const test::TemporaryFolder folder;
+    Measurement m = test::empty_measurement(DetectorKind::LatLong, 32, {"all"}, {0});
+    test::add_rays(m, m.layers[0], 0, 0, 5, 1);
+    SkyMapSettings settings;
+    for (const bool light : {false, true}) {
+        settings.light = light;
+        write_layer_sheet(m, folder / "sheet.png", settings);
+        write_layer_png(m, m.layers[0], folder / "layer.png", settings);
+        for (const char* name : {"sheet.png", "layer.png"}) {
+            const ReadPng png(folder / name);
+            EXPECT_EQ(png.at(3, 3) == (std::vector<int>{255, 255, 255}), light) << name;
+        }
+    }
+}
+
 TEST(LayerSheet, NeedsALayer) {
     const test::TemporaryFolder folder;
     const Measurement m = test::empty_measurement(DetectorKind::LatLong, 16, {"all"}, {});

@@ -73,9 +73,20 @@ std::string angles_text(const Measurement& m, const Layer& layer) {
     return text;
 }
 
+std::string details_of(const Measurement& m, const Layer& layer, const ValueScale& scale,
+                       const SkyMapSettings& settings) {
+    const std::string text = fmt::format("layer {} · albedo {:.3f}", layer.number,
+                                         shown_albedo(m, layer, settings.channel));
+    if (!settings.own_scales) return text;
+    ValueScale whole = scale;
+    whole.clipped = false;
+    return text + " · up to " + ticks_of(whole).back().label + "/sr" +
+           (scale.clipped ? " and more" : "");
+}
+
 void draw_tile(Canvas& canvas, Rect area, const SheetLayout& layout, const Measurement& m,
                const Layer& layer, const ValueScale& scale, const SkyMapSettings& settings) {
-    const Theme theme;
+    const Theme theme = theme_of(settings);
     paint_layer(canvas, area, m, layer, scale, settings);
     if (!layout.legend) return;
     if (layout.details) {
@@ -95,21 +106,28 @@ void draw_tile(Canvas& canvas, Rect area, const SheetLayout& layout, const Measu
     }
     draw_text(canvas, {x, area.bottom() + 27.0}, angles_text(m, layer), {17, theme.text, 1.05},
               Align::Centre);
-    draw_text(canvas, {x, area.bottom() + 47.0},
-              fmt::format("layer {} · albedo {:.3f}", layer.number,
-                          shown_albedo(m, layer, settings.channel)),
+    draw_text(canvas, {x, area.bottom() + 47.0}, details_of(m, layer, scale, settings),
               {theme.small, theme.faint_text}, Align::Centre);
+}
+
+/// The scale of the header: that of all pictures, or, when each has its own, shares of those.
+ValueScale header_scale(const ValueScale& scale, const SkyMapSettings& settings) {
+    if (!settings.own_scales) return scale;
+    ValueScale shares = scale;
+    shares.high = 1;
+    shares.low = settings.scale == Scale::Log ? std::pow(10.0, -settings.decades) : 0;
+    return shares;
 }
 
 void draw_header(Canvas& canvas, const SheetLayout& layout, const Measurement& m,
                  const ValueScale& scale, const SkyMapSettings& settings) {
-    const Theme theme;
+    const Theme theme = theme_of(settings);
     const int bar_width = 470;
     const Rect bar = {layout.width - layout.margin - bar_width, 58, bar_width, 18};
     const double room = bar.x - 2.0 * layout.margin - 40;
     const std::string title = m.surface_name.empty() ? "BRDF" : m.surface_name;
-    draw_text(canvas, {1.0 * layout.margin, 66}, shortened(title, 26, room),
-              {26, theme.text, 1.05});
+    draw_text(canvas, {1.0 * layout.margin, 66}, title,
+              {fitting_size(title, 26, room), theme.text, 1.05});
 
     double rays = 0;
     for (const Layer& layer : m.layers) rays += static_cast<double>(layer.rays);
@@ -121,14 +139,18 @@ void draw_header(Canvas& canvas, const SheetLayout& layout, const Measurement& m
         line += " · channel " + m.channel_names[static_cast<std::size_t>(settings.channel)];
     else if (m.channels() > 1)
         line += fmt::format(" · mean of {} channels", m.channels());
-    draw_text(canvas, {1.0 * layout.margin, 94}, shortened(line, 15, room), {15, theme.faint_text});
+    draw_text(canvas, {1.0 * layout.margin, 94}, line,
+              {fitting_size(line, 15, room), theme.faint_text});
 
-    draw_text(canvas, {1.0 * bar.x, bar.y - 12.0}, "BRDF f [1/sr]", {theme.body, theme.faint_text});
-    draw_colour_bar(canvas, bar, BarDirection::Lying, scale, settings.colour_map, theme);
+    draw_text(canvas, {1.0 * bar.x, bar.y - 12.0},
+              settings.own_scales ? "BRDF f, share of what each picture ends at" : "BRDF f [1/sr]",
+              {theme.body, theme.faint_text});
+    draw_colour_bar(canvas, bar, BarDirection::Lying, header_scale(scale, settings),
+                    settings.colour_map, theme);
 }
 
 void draw_footer(Canvas& canvas, const SheetLayout& layout, const SkyMapSettings& settings) {
-    const Theme theme;
+    const Theme theme = theme_of(settings);
     const TextStyle style{theme.small, theme.faint_text};
     const double y = layout.height - 34.0;
     std::string reading = settings.projection == Projection::Disk
@@ -165,10 +187,11 @@ void write_layer_sheet(const Measurement& measurement, const std::string& path,
     for (const Layer& layer : measurement.layers) layers.push_back(&layer);
     const ValueScale scale = value_scale(measurement, layers, settings);
     const SheetLayout layout(static_cast<int>(layers.size()), settings);
-    Canvas canvas(layout.width, layout.height, Theme{}.background);
+    Canvas canvas(layout.width, layout.height, theme_of(settings).background);
     for (std::size_t k = 0; k < layers.size(); ++k)
         draw_tile(canvas, layout.tile_at(static_cast<int>(k)), layout, measurement, *layers[k],
-                  scale, settings);
+                  settings.own_scales ? value_scale(measurement, {layers[k]}, settings) : scale,
+                  settings);
     if (settings.legend) {
         draw_header(canvas, layout, measurement, scale, settings);
         draw_footer(canvas, layout, settings);

@@ -80,6 +80,19 @@ void draw_label(Canvas& canvas, Rect bar, BarDirection direction, const Tick& ti
 
 }  // namespace
 
+Theme light_theme() {
+    Theme theme;
+    theme.background = {1, 1, 1};
+    theme.text = {0.067, 0.067, 0.067};
+    theme.faint_text = {0.30, 0.30, 0.33};
+    theme.frame = {0.62, 0.62, 0.65};
+    return theme;
+}
+
+Theme theme_of(const SkyMapSettings& settings) {
+    return settings.light ? light_theme() : Theme{};
+}
+
 std::vector<Tick> ticks_of(const ValueScale& scale) {
     std::vector<Tick> ticks = scale.scale == Scale::Log ? log_ticks(scale) : linear_ticks(scale);
     ticks.push_back({1.0, (scale.clipped ? "≥ " : "") + value_text(scale.high)});

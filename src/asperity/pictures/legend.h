@@ -18,6 +18,10 @@ struct Theme {
     double title = 20, body = 14, small = 13;  ///< sizes of type [pixels]
 };
 
+/// The same for paper: dark on white.
+Theme light_theme();
+Theme theme_of(const SkyMapSettings& settings);
+
 /// A value beside a colour bar: t = 0 at its low end, 1 at its high end.
 struct Tick {
     double t = 0;

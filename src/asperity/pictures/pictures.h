@@ -22,8 +22,10 @@ struct SkyMapSettings {
     Scale scale = Scale::Log;
     double decades = 4;  ///< of the log scale, below its upper end; 0 < decades <= 30
     Projection projection = Projection::SkyMap;
-    bool legend = true;  ///< title, axes, colour bar, mirror direction; else the bare picture
-    int channel = -1;    ///< -1: the mean of all channels
+    bool legend = true;       ///< title, axes, colour bar, mirror direction; else the bare picture
+    int channel = -1;         ///< -1: the mean of all channels
+    bool light = false;       ///< dark on white, for paper
+    bool own_scales = false;  ///< of a sheet: each picture has its own scale, which it tells
 };
 
 // Common to all pictures. The scale ends at the first 1, 2 or 5 times a power of ten not below the
@@ -57,6 +59,10 @@ enum class SurfaceLook {
 /// surfaces as means over their facets, small ones facet by facet.
 /// Throws Error(InputOutput, path), Error(InvalidInput, path) for a surface that is not valid.
 void write_surface_png(const Heightfield& surface, const std::string& path, SurfaceLook look);
+
+/// Writes the Shaded look with the surface's name above and, below, a scale bar and a key of the
+/// heights; dark on white, or light on dark. Throws as write_surface_png.
+void write_relief_png(const Heightfield& surface, const std::string& path, bool dark);
 
 /// Writes a topography as its file has it and, beside it, the surface that prepare() made of it:
 /// heights as colours, each picture with a bar of its own that leaves out the most extreme

@@ -82,8 +82,9 @@ void write_residual_sheet(const Detector& detector, const std::vector<ResidualTi
                   detector, tiles[static_cast<std::size_t>(k)]);
     const Rect bar = {width - kMargin - kBarWidth, 46, kBarWidth, 16};
     const double room = bar.x - 2.0 * kMargin;
-    draw_text(canvas, {1.0 * kMargin, 56}, shortened(title, 24, room), {24, theme.text, 1.05});
-    draw_text(canvas, {1.0 * kMargin, 84}, shortened(line, 15, room), {15, theme.faint_text});
+    draw_text(canvas, {1.0 * kMargin, 56}, title,
+              {fitting_size(title, 24, room), theme.text, 1.05});
+    draw_text(canvas, {1.0 * kMargin, 84}, line, {fitting_size(line, 15, room), theme.faint_text});
     draw_scale(canvas, bar);
     draw_text(canvas, {1.0 * kMargin, canvas.height() - 22.0},
               "The hemisphere seen from above, means of f cos θ over blocks of cells; ring: mirror "

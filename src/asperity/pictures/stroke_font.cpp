@@ -180,16 +180,21 @@ void draw_text(Canvas& canvas, Point at, std::string_view text, const TextStyle&
     }
 }
 
-std::string shortened(std::string_view text, double size, double width) {
-    if (text_width(text, size) <= width) return std::string(text);
-    const double left_for_text = width - text_width("…", size);
-    std::string_view rest = text;
-    std::size_t kept = 0;
-    for (double used = 0; !rest.empty(); kept = text.size() - rest.size()) {
-        used += Hinting(size).advance(glyph_of(next_code(rest)));
-        if (used > left_for_text) break;
+std::vector<std::string> wrapped(std::string_view text, double size, double width) {
+    std::vector<std::string> lines;
+    std::istringstream words{std::string(text)};
+    for (std::string word; words >> word;) {
+        if (!lines.empty() && text_width(lines.back() + ' ' + word, size) <= width)
+            lines.back() += ' ' + word;
+        else
+            lines.push_back(word);
     }
-    return std::string(text.substr(0, kept)) + "…";
+    return lines;
+}
+
+double fitting_size(std::string_view text, double size, double width) {
+    const double needed = text_width(text, size);
+    return needed > width && width > 0 ? size * width / needed : size;
 }
 
 }  // namespace asperity::io

@@ -37,7 +37,11 @@ double text_width(std::string_view text, double size);
 void draw_text(Canvas& canvas, Point at, std::string_view text, const TextStyle& style,
                Align align = Align::Left);
 
-/// `text`, its end replaced by "…" when it is wider than `width` pixels.
-std::string shortened(std::string_view text, double size, double width);
+/// `text` in lines that are no wider than `width` pixels; a word that is keeps its line.
+std::vector<std::string> wrapped(std::string_view text, double size, double width);
+
+/// The size, `size` at most, at which `text` is no wider than `width` pixels: whole titles, however
+/// long, in smaller letters.
+double fitting_size(std::string_view text, double size, double width);
 
 }  // namespace asperity::io

@@ -90,14 +90,20 @@ TEST(StrokeFont, UnknownAndBrokenTextIsDrawnAsBoxes) {
     EXPECT_GT(inked("\xe6\xbc", 14).width, 0);
 }
 
-TEST(StrokeFont, LongTextIsShortenedToItsRoom) {
+TEST(StrokeFont, LongTitlesStayWhole) {
     const std::string text = "a surface with a rather long name";
-    EXPECT_EQ(shortened(text, 14, 1000), text);
-    const std::string cut = shortened(text, 14, 120);
-    EXPECT_LE(text_width(cut, 14), 120);
-    EXPECT_TRUE(cut.ends_with("…"));
-    EXPECT_TRUE(text.starts_with(cut.substr(0, cut.size() - std::string("…").size())));
-    EXPECT_EQ(shortened(text, 14, 1), "…");
+    EXPECT_EQ(fitting_size(text, 14, 1000), 14);
+    const double size = fitting_size(text, 14, 120);
+    EXPECT_LT(size, 14);
+    EXPECT_NEAR(text_width(text, size), 120, 2);
+    const std::vector<std::string> lines = wrapped(text, 14, 120);
+    ASSERT_GT(lines.size(), 1u);
+    std::string joined;
+    for (const std::string& line : lines) {
+        EXPECT_LE(text_width(line, 14), 120);
+        joined += (joined.empty() ? "" : " ") + line;
+    }
+    EXPECT_EQ(joined, text);
 }
 
 }  // namespace

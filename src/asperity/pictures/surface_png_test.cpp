@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <asperity/core/directions.h>
 #include <asperity/formats/test_files.h>
 #include <asperity/pictures/picture_test_data.h>
 #include <asperity/pictures/pictures.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace asperity::io {
 namespace {
@@ -129,6 +132,54 @@ TEST(SurfacePng, RefusesBrokenSurfacesAndPlaces) {
     test::expect_error(ErrorCode::InvalidInput, "a.png",
                        [&] { write_surface_png(s, folder / "a.png", SurfaceLook::Normals); });
     EXPECT_EQ(folder.files(), 0);
+}
+
+// A smooth wave at 4 pixels a cell. Facets of 4 pixels would make steps and, from triangle to
+// triangle, a weave; a smooth slope changes by little from pixel to pixel.
+TEST(SurfacePng, SmallFacetsAreNoWeave) {
+    const test::TemporaryFolder folder;
+    const auto wave = [](int i, int j) {
+        return 4 * std::cos(2 * kPi * i / 32) * std::cos(2 * kPi * j / 32);
+    };
+    write_surface_png(surface_of(256, 256, wave), folder / "a.png", SurfaceLook::Shaded);
+    const ReadPng png(folder / "a.png");
+    ASSERT_EQ(png.width, 1024);
+    int most = 0, darkest = 255, brightest = 0;
+    for (int y = 100; y < 400; y += 7)
+        for (int x = 101; x < 400; ++x) {
+            const int before = png.at(x - 1, y)[0], here = png.at(x, y)[0];
+            most = std::max(most, std::abs(png.at(x + 1, y)[0] - 2 * here + before));
+            darkest = std::min(darkest, here);
+            brightest = std::max(brightest, here);
+        }
+    EXPECT_LE(most, 3);
+    EXPECT_GT(brightest - darkest, 100);
+}
+
+// 256 cells of 2 micrometres at 4 pixels: the bar is the first 1, 2 or 5 below a quarter, 100 um,
+// and so 50 cells, 200 pixels long. The title keeps its place for the picture below it.
+TEST(SurfacePng, AReliefHasAScaleBarAndAKey) {
+    const test::TemporaryFolder folder;
+    Heightfield s = surface_of(256, 256, [](int i, int) { return 1e-6 * std::sin(0.2 * i); });
+    s.dx = s.dy = 2e-6;
+    s.unit = "m";
+    s.name = "a wave";
+    for (const bool dark : {false, true}) {
+        write_relief_png(s, folder / "a.png", dark);
+        const ReadPng png(folder / "a.png");
+        EXPECT_EQ(png.width, 1024 + 2 * 28);
+        EXPECT_EQ(png.at(2, 2)[0] < 128, dark);
+        const int y = 28 + 26 + 30 + 1024 + 22;  // within the bar
+        const auto inked = [&](int x) { return std::abs(png.at(x, y)[0] - png.at(2, 2)[0]) > 100; };
+        EXPECT_FALSE(inked(26));
+        EXPECT_TRUE(inked(29));
+        EXPECT_TRUE(inked(28 + 198));
+        EXPECT_FALSE(inked(28 + 202));
+        // Cold on the left of the key, warm on the right
+        const auto cold = png.at(1052 - 318, y), warm = png.at(1052 - 3, y);
+        EXPECT_GT(cold[2], cold[0]);
+        EXPECT_GT(warm[0], warm[2]);
+    }
 }
 
 }  // namespace
