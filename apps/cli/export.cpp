@@ -157,7 +157,10 @@ class ExportVerb {
                 throw Error(ErrorCode::Usage, "it is of the log scale", "decades");
             return;
         }
-        for (const CLI::Option* option : {colour_map_, scale_, decades_, projection_, channel_})
+        if (own_scales_)
+            throw Error(ErrorCode::Usage, "it is for pictures: -o X.png or a folder", "own-scales");
+        for (const CLI::Option* option :
+             {colour_map_, scale_, decades_, projection_, channel_, theme_})
             if (option->count() > 0)
                 throw Error(ErrorCode::Usage, "it is for pictures: -o X.png or a folder",
                             option->get_lnames().front());

@@ -80,6 +80,13 @@ class RowOptions {
         return settings;
     }
 
+    /// Throws Error(Usage, option) where the option of that name, or any, was given.
+    void refuse_where(bool useless, const std::string& name, const char* why) const {
+        for (const auto& [row, option] : options_)
+            if (useless && option->count() > 0 && (name.empty() || row.info.name == name))
+                throw Error(ErrorCode::Usage, why, row.info.name);
+    }
+
   private:
     std::vector<std::pair<Param<Settings>, CLI::Option*>> options_;
 };
@@ -160,6 +167,8 @@ class PlotVerb {
         const bool piped = path == kStandardOutput;
         if (!piped) plots::check_plot_path(path);
         if (!piped) check_output_file(path);
+        file_.refuse_where(ending(path) == "csv", {}, "a CSV has no looks");
+        file_.refuse_where(ending(path) != "png", "pixels", "it is for .png");
 
         Run run(threads_.threads());
         const StopOnSignal stop(run);

@@ -122,6 +122,9 @@ class Plot(ProgramTest):
                 (2, ["", "-o", "p.svg"], "empty"),
                 (2, ["lambert", "--kind", "albedo", "--plane", 3, "-o", "p.svg"],
                  "plane: has no effect on --kind albedo"),
+                (2, ["lambert", "--decades", 3, "-o", "p.svg"], "log scale"),
+                (2, ["lambert", "--theme", "dark", "-o", "p.csv"], "a CSV has no looks"),
+                (2, ["lambert", "--pixels", 3, "-o", "p.svg"], "it is for .png"),
                 (2, ["lambert", "--theta", 90, "-o", "p.svg"], "theta"),
                 (2, ["r.asperity", "--theta", 30, "-o", "p.svg"], "its angles are"),
                 (2, ["r.asperity", "--layer", 9, "-o", "p.svg"], "no layer 9"),
@@ -138,6 +141,27 @@ class Plot(ProgramTest):
             with self.subTest(arguments=arguments):
                 self.fails(code, "plot", *arguments, saying=saying)
                 self.assertFalse(os.path.exists("p.svg"))
+
+    def test_sheets_and_reliefs_have_looks(self):
+        self.result()
+        made = {}
+        for name, options in (("dark", []), ("light", ["--theme", "light"]),
+                              ("own", ["--own-scales"])):
+            self.passes("export", "r.asperity", "-o", "s.png", "--projection", "disk", *options)
+            made[name] = content("s.png")
+        self.assertEqual(len(set(made.values())), 3)
+        self.fails(2, "export", "r.asperity", "-o", "x.exr", "--own-scales", saying="own-scales")
+        self.fails(2, "export", "r.asperity", "-o", "x.exr", "--theme", "light", saying="theme")
+        self.fails(2, "export", "r.asperity", "-o", "s.png", "--theme", "blue", saying="theme")
+        sizes = {}
+        for look in ("shaded", "bare", "normals"):
+            self.passes("surface", "gaussian", "--size", 64, "--png", "s.png", "--look", look)
+            sizes[look] = content("s.png")[16:24]
+        self.assertEqual(sizes["bare"], sizes["normals"])
+        self.assertGreater(sizes["shaded"], sizes["bare"])
+        self.fails(2, "surface", "gaussian", "--png", "s.png", "--look", "bare", "--theme", "dark",
+                   saying="theme")
+        self.fails(2, "surface", "gaussian", "--theme", "dark", saying="theme")
 
     def test_a_disk_that_takes_no_more_is_told(self):
         for ending in ("svg", "pdf", "png", "csv"):

@@ -69,7 +69,7 @@ PlotPointer albedo_figure(const Subjects& subjects, const PlotSettings& settings
         }
         for (PlotCurve& curve : curves) set.curves.push_back(std::move(curve));
     }
-    PlotAxis values = value_axis(set, is_log(settings, false), settings.decades, "albedo");
+    PlotAxis values = value_axis(set, is_log(settings), settings.decades, "albedo");
     return std::make_shared<CurvePlot>(std::move(set), incidence_angles(), std::move(values));
 }
 

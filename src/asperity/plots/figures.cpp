@@ -189,8 +189,9 @@ int channel_of(const Bsdf& model, const Subjects& subjects, const PlotSettings& 
     return static_cast<int>(*number);
 }
 
-bool is_log(const PlotSettings& settings, bool usually) {
-    return settings.scale == PlotScale::Auto ? usually : settings.scale == PlotScale::Log;
+bool is_log(const PlotSettings& settings) {
+    if (settings.scale != PlotScale::Auto) return settings.scale == PlotScale::Log;
+    return find_plot_kind(settings.kind)->usually_log;
 }
 
 }  // namespace asperity::plots::detail

@@ -45,7 +45,7 @@ int channel_of(const Measurement& measurement, const PlotSettings& settings);
 int channel_of(const Bsdf& model, const Subjects& subjects, const PlotSettings& settings);
 
 /// Whether values are shown on a log scale.
-bool is_log(const PlotSettings& settings, bool usually);
+bool is_log(const PlotSettings& settings);
 
 /// The hemispheres of all subjects; of a model over the cells of the first measurement's detector.
 /// Where there is one, all are averaged over neighbouring columns, so that cells near the pole are

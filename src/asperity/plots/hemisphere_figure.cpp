@@ -228,7 +228,7 @@ PlotPointer hemisphere_figure(const Subjects& subjects, const PlotSettings& sett
     HemispherePlot::Data data;
     data.title = title_of(hemispheres.lit, settings);
     data.note = hemispheres.note;
-    data.scale = scale_of(hemispheres.values, is_log(settings, true), settings.decades);
+    data.scale = scale_of(hemispheres.values, is_log(settings), settings.decades);
     data.discs = std::move(hemispheres.values);
     data.colour_map = settings.colour_map;
     return std::make_shared<HemispherePlot>(std::move(data));

@@ -144,7 +144,7 @@ PlotPointer lobe_figure(const Subjects& subjects, const PlotSettings& settings, 
     }
     // The columns of f cos(theta) go with the first curve of the set
     if (measured != &lit.front()) set.more.clear();
-    PlotAxis values = value_axis(set, is_log(settings, false), settings.decades, "BRDF  f  [sr⁻¹]");
+    PlotAxis values = value_axis(set, is_log(settings), settings.decades, "BRDF  f  [sr⁻¹]");
     if (settings.axes == PlotAxes::Polar)
         return std::make_shared<PolarPlot>(std::move(set), std::move(values), theta_i);
     const std::string plane =

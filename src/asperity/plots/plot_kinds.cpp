@@ -23,6 +23,7 @@ const std::vector<PlotKind>& plot_kinds() {
          .make = detail::solid_figure},
         {.name = "hemisphere",
          .doc = "the BRDF over all directions, from above",
+         .usually_log = true,
          .settings = {"decades", "theta", "layer", "phi", "average", "channel", "colour-map"},
          .make = detail::hemisphere_figure},
         {.name = "albedo",
@@ -42,6 +43,7 @@ const std::vector<PlotKind>& plot_kinds() {
         {.name = "psd",
          .doc = "the power spectral density of surfaces",
          .of_surfaces = true,
+         .usually_log = true,
          .make = detail::psd_figure},
     };
     return kKinds;

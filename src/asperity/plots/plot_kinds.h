@@ -29,6 +29,7 @@ struct PlotKind {
     std::string name;
     std::string doc;           ///< what it shows, without a capital and without its full stop
     bool of_surfaces = false;  ///< subjects are surfaces; else results and models
+    bool usually_log = false;  ///< of values, where the settings leave the scale open
     std::vector<std::string> settings = {};  ///< those that count, beside kind, scale and title
     std::function<std::shared_ptr<const Plot>(const std::vector<PlotSubject>&, const PlotSettings&,
                                               Run&)>

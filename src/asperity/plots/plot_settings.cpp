@@ -118,8 +118,11 @@ ParamTable<PlotSettings> plot_params() {
         row.info.users = users_of(name);
         row.unused = [name](const PlotSettings& settings) -> std::string {
             const PlotKind* kind = find_plot_kind(settings.kind);
-            if (kind == nullptr || uses(*kind, name)) return {};
-            return fmt::format("has no effect on --kind {}", settings.kind);
+            if (kind == nullptr) return {};
+            if (!uses(*kind, name)) return "has no effect on --kind " + settings.kind;
+            const bool log = settings.scale == PlotScale::Auto ? kind->usually_log
+                                                               : settings.scale == PlotScale::Log;
+            return name == "decades" && !log ? "it is of a log scale" : "";
         };
     }
     return table;

@@ -11,7 +11,7 @@ PlotPointer solid_figure(const Subjects& subjects, const PlotSettings& settings,
     SolidPlot::Data data;
     data.title = title_of(hemispheres.lit, settings);
     data.note = hemispheres.note;
-    data.scale = scale_of(hemispheres.values, is_log(settings, false), settings.decades);
+    data.scale = scale_of(hemispheres.values, is_log(settings), settings.decades);
     data.lobes = std::move(hemispheres.values);
     data.colour_map = settings.colour_map;
     data.azimuth = radians(settings.camera_azimuth);

@@ -120,7 +120,7 @@ PlotPointer normals_figure(const Subjects& subjects, const PlotSettings& setting
                                            series_ink(static_cast<int>(set.curves.size()))));
     }
     const PlotAxis angle = normal_angles(set);
-    PlotAxis values = value_axis(set, is_log(settings, false), settings.decades, "D  [sr⁻¹]");
+    PlotAxis values = value_axis(set, is_log(settings), settings.decades, "D  [sr⁻¹]");
     return std::make_shared<CurvePlot>(std::move(set), angle, std::move(values));
 }
 
@@ -186,7 +186,7 @@ PlotPointer psd_figure(const Subjects& subjects, const PlotSettings& settings, R
     if (!(last > first))
         throw Error(ErrorCode::InvalidInput, "a flat surface has no spectrum",
                     subjects.front().name);
-    const bool log = is_log(settings, true);
+    const bool log = is_log(settings);
     const std::string label = fmt::format("PSD  [{}⁴]", one(unit));
     PlotAxis x{fmt::format("spatial frequency  [{}⁻¹]", one(unit)), log ? first : 0, last, log};
     PlotAxis y = log ? decades_axis(set, label) : value_axis(set, false, settings.decades, label);
