@@ -27,9 +27,36 @@ endif()
 
 # Tests of a sanitized build carry the word in their names, to be told from the others.
 set(ASPERITY_TEST_SUFFIX "")
+set(ASPERITY_TEST_OPTIONS "")
+set(ASPERITY_TEST_COST 5) # seconds, roughly: the long ones begin first
 if(ASPERITY_SANITIZE)
     set(ASPERITY_TEST_SUFFIX _sanitized)
+    set(ASPERITY_TEST_OPTIONS -O0)
+    set(ASPERITY_TEST_COST 20)
 endif()
+
+# asperity_precompile(GROUP target ...): reads cmake/precompiled/GROUP.h once for all targets of the
+# group, which must be compiled with the same options. Only where whole builds start from nothing again
+# and again (tools/test): a source that forgets an include would go unnoticed.
+function(asperity_precompile group)
+    if(NOT ASPERITY_PRECOMPILE)
+        return()
+    endif()
+    foreach(target IN LISTS ARGN)
+        get_property(first GLOBAL PROPERTY ASPERITY_PRECOMPILED_${group})
+        if(first)
+            target_precompile_headers(${target} REUSE_FROM ${first})
+        else()
+            target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled/${group}.h)
+            set_property(GLOBAL PROPERTY ASPERITY_PRECOMPILED_${group} ${target})
+        endif()
+        if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+            # It takes what it has read beforehand for code of ours, and these are false alarms about
+            # the insides of std::string, bug 105651.
+            target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow)
+        endif()
+    endforeach()
+endfunction()
 
 # Only in the build: all of a header-only library is in ours once that is compiled.
 set(ASPERITY_HEADER_ONLY Eigen3::Eigen nlohmann_json::nlohmann_json)
@@ -59,6 +86,10 @@ function(asperity_module name)
     target_compile_features(asperity_${name} PUBLIC cxx_std_20)
     set_target_properties(asperity_${name} PROPERTIES EXPORT_NAME ${name})
     set_property(GLOBAL APPEND PROPERTY ASPERITY_MODULES ${name})
+    # The library keeps all its warnings where they count
+    if(NOT ASPERITY_WARNINGS_AS_ERRORS)
+        asperity_precompile(library asperity_${name})
+    endif()
     if(ASPERITY_BUILD_TESTS AND M_TESTS)
         asperity_test(asperity_${name}_test LABEL unit SOURCES ${M_TESTS} LIBS asperity_${name})
     endif()
@@ -77,6 +108,7 @@ function(asperity_vectors name)
     target_link_libraries(asperity_${name} PRIVATE hwy)
     target_compile_definitions(asperity_${name} PRIVATE
         HWY_BROKEN_EMU128=0 "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL)")
+    set_source_files_properties(${V_KERNELS} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
     if(ASPERITY_SANITIZE)
         set_source_files_properties(${V_KERNELS} PROPERTIES COMPILE_OPTIONS "-fno-sanitize=all;-O2")
     endif()
@@ -89,9 +121,10 @@ function(asperity_test name)
     add_executable(${name} ${T_SOURCES})
     target_link_libraries(${name} PRIVATE ${T_LIBS} asperity_flags GTest::gtest_main)
     # What is computed is the library's: what counts here is that it compiles quickly.
-    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1> ${ASPERITY_TEST_OPTIONS})
+    asperity_precompile(tests ${name})
     add_test(NAME ${name}${ASPERITY_TEST_SUFFIX} COMMAND ${name})
-    set_tests_properties(${name}${ASPERITY_TEST_SUFFIX} PROPERTIES LABELS ${T_LABEL})
+    set_tests_properties(${name}${ASPERITY_TEST_SUFFIX} PROPERTIES LABELS ${T_LABEL} COST ${ASPERITY_TEST_COST})
     if(NOT TARGET ${T_LABEL}_tests)
         add_custom_target(${T_LABEL}_tests)
     endif()

@@ -20,9 +20,9 @@ def commands(path, folder):
         if not entry["file"].startswith(folder + "/") or entry["file"].endswith("_test.cpp"):
             continue
         command = re.sub(r"^.*?(?=\s-)", "clang++", entry["command"], count=1)
-        # What GCC alone knows, and all that says where to write
-        command = re.sub(r"\s(-Wno-restrict|-Wdouble-promotion|-MD|-M[TF] \S+|-o \S+)(?=\s|$)", "",
-                         command)
+        # What GCC alone knows, what it has read beforehand, and all that says where to write
+        command = re.sub(r"\s(-Wno-restrict|-Wdouble-promotion|-Winvalid-pch|-include \S+/cmake_pch\.hxx"
+                         r"|-MD|-M[TF] \S+|-o \S+)(?=\s|$)", "", command)
         yield entry["file"], entry["directory"], command.replace(" -c ", " -Werror -fsyntax-only -c ")
 
 

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// What nearly every source of the library includes, read once (ASPERITY_PRECOMPILE). Every source still
+// includes what it uses: the other builds, and clang in the tests, read no such file.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fmt/format.h>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
