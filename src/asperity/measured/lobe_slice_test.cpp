@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace asperity {
 namespace {
@@ -93,6 +94,15 @@ TEST(LobeSliceTest, TwoLitCellsHaveIndependentErrors) {
     light_up(m, 7, 8, 0.3, 0.004f);
     const LobeSample lit = lobe_slice(m, m.layers[0], 0).samples.front();
     EXPECT_NEAR(lit.f_stderr / lit.f, 0.005 / 0.4, 1e-6);
+}
+
+TEST(LobeSliceTest, ACellPartlyInTheStripKeepsItsRelativeError) {
+    Measurement m = dark(0);
+    light_up(m, 7, 9, 0.25, 0.01f);  // the second column beside the plane: half of it counts
+    const LobeSample lit = lobe_slice(m, m.layers[0], 0, {.columns = 1.5}).samples.back();
+    const double half = 1.5 / std::sin(m.detector.theta_centre(7));  // strip in columns
+    EXPECT_NEAR(lit.f, m.brdf(m.layers[0], 0, 7 * 16 + 9) * (half - 1) / (2 * half), 1e-9);
+    EXPECT_NEAR(lit.f_stderr / lit.f, 0.01 / 0.25, 1e-6);
 }
 
 TEST(LobeSliceTest, AtThePoleAllCellsOfASideCount) {
