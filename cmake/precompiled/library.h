@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What nearly every source of the library includes, read once (ASPERITY_PRECOMPILE). Every source still
-// includes what it uses: the other builds, and clang in the tests, read no such file.
+// What nearly every source of the library includes, read once (ASPERITY_PRECOMPILE). Every source
+// still includes what it uses: the other builds, and clang in the tests, read no such file.
 #pragma once
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <fmt/format.h>
 #include <functional>
 #include <limits>
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "library.h"
 #include <QtTest>
 #include <QtWidgets>
+#include "library.h"
