@@ -32,6 +32,7 @@ struct Options {
     std::vector<std::uint64_t> rays = {1 << 20, 1 << 24};
     std::vector<int> seeds = {8, 3};
     int batches = RunSettings{}.batches;
+    bool isotropic = false;
     std::uint64_t reference_rays = 200'000'000;
     std::string json_file;
 };
@@ -51,6 +52,7 @@ struct Setting {
     const Heightfield& surface;
     double theta_deg;
     int batches;
+    bool isotropic;
 };
 
 Experiment experiment_of(const Setting& setting, LaunchPattern launch, std::uint64_t rays,
@@ -58,6 +60,10 @@ Experiment experiment_of(const Setting& setting, LaunchPattern launch, std::uint
     Experiment experiment = bench_experiment(setting.theta_deg, rays);
     experiment.detector.resolution = static_cast<int>(kColumns);
     experiment.detector.orders = 1;
+    if (setting.isotropic) {
+        experiment.illumination.phi_deg = {0};
+        experiment.illumination.isotropic = true;
+    }
     experiment.run.launch = launch;
     experiment.run.batches = setting.batches;
     experiment.run.seed = seed;
@@ -155,7 +161,7 @@ std::vector<Row> measure_all(const Options& options) {
         const Heightfield surface = make_bench_surface(name, options.size);
         for (const double theta : options.thetas) {
             say_next(fmt::format("{} at {}°", name, theta));
-            const Setting setting{surface, theta, options.batches};
+            const Setting setting{surface, theta, options.batches, options.isotropic};
             const Reference reference = reference_of(setting, options.reference_rays);
             for (std::size_t k = 0; k < options.rays.size(); ++k) {
                 rows.push_back(measure_row(setting, reference, options.rays[k],
@@ -178,10 +184,11 @@ double mean_figure(const std::vector<Row>& rows, std::size_t pattern, std::uint6
 
 std::string table(const std::vector<Row>& rows, const Options& options) {
     std::string text = fmt::format(
-        "Time to equal error of a {} x {} histogram over that of random launch, N = {}\n"
+        "Time to equal error of a {} x {} histogram over that of random launch, {}, N = {}\n"
         "{:<14}{:>6}{:>12}{:>13}{:>13}{:>12}{:>17}\n",
-        kColumns, kRows, options.size, "surface", "theta", "rays", "random RMS", "lowdisc. RMS",
-        kPatterns[1].name, kPatterns[2].name);
+        kColumns, kRows, options.isotropic ? "isotropic light" : "light of one azimuth",
+        options.size, "surface", "theta", "rays", "random RMS", "lowdisc. RMS", kPatterns[1].name,
+        kPatterns[2].name);
     for (const Row& row : rows) {
         text +=
             fmt::format("{:<14}{:>6.0f}{:>12}{:>13.3e}{:>13.3e}{:>12.2f}{:>16.2f}{}\n", row.surface,
@@ -238,6 +245,8 @@ int main_of(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--batches", options.batches, "independent ones of a run, at least")
         ->capture_default_str();
+    app.add_flag("--isotropic", options.isotropic,
+                 "light from all around: random launch gives each ray an azimuth of its own");
     app.add_option("--reference-rays", options.reference_rays)->capture_default_str();
     app.add_option("--json", options.json_file, "file to add all figures to");
     CLI11_PARSE(app, argc, argv);
@@ -245,7 +254,8 @@ int main_of(int argc, char** argv) {
     const std::vector<Row> rows = measure_all(options);
     fmt::print("{}", table(rows, options));
     if (!options.json_file.empty()) {
-        add_to_json(options.json_file, "equal_error", json(rows, options));
+        add_to_json(options.json_file, options.isotropic ? "equal_error_isotropic" : "equal_error",
+                    json(rows, options));
     }
     return 0;
 }

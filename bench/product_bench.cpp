@@ -8,6 +8,7 @@ int main(int argc, char** argv) {
     using namespace asperity::bench;
     return guarded_main("product_bench", [&] {
         return run_tasks("Speed of whole measurements",
-                         {add_growth, add_threads, add_fresnel, add_stages}, "", argc, argv);
+                         {add_growth, add_threads, add_fresnel, add_around, add_stages}, "", argc,
+                         argv);
     });
 }

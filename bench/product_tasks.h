@@ -11,6 +11,8 @@ Task add_growth(CLI::App& program);
 Task add_threads(CLI::App& program);
 /// Exact reflectances of a metal over perfect mirrors.
 Task add_fresnel(CLI::App& program);
+/// Isotropic light over light of one azimuth.
+Task add_around(CLI::App& program);
 /// Where the time of a whole run goes.
 Task add_stages(CLI::App& program);
 

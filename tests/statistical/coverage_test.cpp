@@ -28,6 +28,7 @@ struct Case {
     const char* name;
     LaunchPattern launch;
     double alpha;
+    bool isotropic = false;
 };
 void PrintTo(const Case& c, std::ostream* out) {
     *out << c.name;
@@ -38,6 +39,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Case{"lattice", LaunchPattern::LowDiscrepancy, 0.6},
                     // Most facets are known here: their light is spread exactly
                     Case{"known_facets", LaunchPattern::LowDiscrepancy, 0.35},
+                    // A batch is one sweep here, from an azimuth of its own
+                    Case{"sweeps_around", LaunchPattern::LowDiscrepancy, 0.6, true},
                     Case{"stratified", LaunchPattern::Stratified, 0.6},
                     Case{"random", LaunchPattern::Random, 0.6}),
     [](const testing::TestParamInfo<Case>& tested) { return std::string(tested.param.name); });
@@ -54,6 +57,7 @@ TEST_P(CoverageOf, NinetyFivePercentIntervalsHoldTheTruth) {
     e.optics.ior = {1.5};
     e.detector.resolution = 12;
     e.illumination.theta_deg = {40};
+    e.illumination.isotropic = GetParam().isotropic;
     e.run.launch = GetParam().launch;
     // What known facets leave over may be little, and a handful of rays has skewed errors: four
     // rays a cell, half as many as a measurement has unless asked otherwise

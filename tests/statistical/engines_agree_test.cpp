@@ -116,6 +116,40 @@ TEST_P(EnginesAgree, OnEveryLaw) {
     }
 }
 
+/// Light from all around: sweeps of the wide engine, each from one azimuth, or rays that have one
+/// each where facets look into few; straight down, where all azimuths are one.
+TEST_P(EnginesAgree, OnIsotropicLight) {
+    asperity::Run run(2);
+    Distance all;
+    std::uint64_t seed = 100;
+    for (const FresnelKind law : {FresnelKind::None, FresnelKind::Conductor}) {
+        Experiment e = experiment_of(GetParam(), law);
+        e.illumination.theta_deg = {0, 23.7, 71.3};
+        // Along the normal there is no azimuth to tell from
+        if (e.surface.kind == "flat")
+            e.illumination.theta_deg.erase(e.illumination.theta_deg.begin());
+        e.illumination.isotropic = true;
+        e.illumination.phi_deg = {0};
+        // Odd, or the mirror direction of a flat surface would be the edge of a cell
+        e.detector.resolution = 17;
+        const Heightfield surface = make_surface(e.surface, run);
+        e.run.rays = 128000;
+        e.run.seed = ++seed;
+        const Measurement wide = measure(surface, e, run);
+        e.run.engine = "plain";
+        e.run.seed = ++seed;
+        const Distance d = distance(wide, measure(surface, e, run));
+        EXPECT_LT(d.largest, 5.5);
+        all.sum_of_squares += d.sum_of_squares;
+        all.count += d.count;
+    }
+    RecordProperty("cells", all.count);
+    const double independent = all.count / 3.0;
+    if (independent > 10) {
+        EXPECT_LT(all.sum_of_squares / all.count, 1.05 + 4 * std::sqrt(2 / independent));
+    }
+}
+
 /// Rays that start at the same random points take the same ways, but for those that pass an edge
 /// within rounding.
 TEST_P(EnginesAgree, RayByRay) {

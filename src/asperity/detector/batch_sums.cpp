@@ -46,6 +46,7 @@ void BatchSums::escape(std::size_t side, int order, const std::int32_t* cells,
         for (std::size_t k = 0; k < count; ++k)
             touched[(first_place + index(cells[k])) / kBlock] |= bit;
         energy_.resize(shape_.orders * shape_.places() * values);
+        counted_ = false;
         std::uint64_t* sums = energy_.data() + (kept * shape_.places() + first_place) * values;
         const Leaving leaving{side, bounce, cells, paths, count, weights};
         // Colours at once, as this takes a good part of the time of a metal
@@ -121,6 +122,40 @@ void BatchSums::settle(std::vector<std::uint64_t>& account, const std::int32_t* 
         }
 }
 
+void share_evenly(std::uint64_t* values, std::size_t count, std::size_t stride) {
+    std::uint64_t sum = 0;
+    for (std::size_t k = 0; k < count; ++k) sum += values[k * stride];
+    if (sum == 0) return;
+    const std::uint64_t each = sum / count, more = sum % count;
+    for (std::size_t k = 0; k < count; ++k) values[k * stride] = each + (k < more ? 1 : 0);
+}
+
+void BatchSums::share_rows(std::size_t columns) {
+    const std::size_t values = shape_.values(), order = shape_.places() * values;
+    if (counted_ && !count_.empty()) {
+        energy_.resize(shape_.orders * order);
+        for_touched([&](std::size_t begin, std::size_t end, std::uint8_t bits) {
+            for (std::size_t o = 0; o < shape_.orders; ++o)
+                if (bits & bit_of(o))
+                    for (std::size_t k = o * order + begin; k < o * order + end; ++k)
+                        energy_[k] = std::exchange(count_[k], 0u) * kRayEnergy;
+        });
+        counted_ = false;
+    }
+    if (counted_) return;
+    for (std::size_t first = 0; first < shape_.places(); first += columns) {
+        const std::size_t begin = first / kBlock, end = (first + columns - 1) / kBlock + 1;
+        std::uint8_t bits = 0;
+        for (std::size_t b = begin; b < end; ++b) bits |= touched_[b];
+        if (bits == 0) continue;
+        for (std::size_t b = begin; b < end; ++b) touched_[b] = bits;
+        for (std::size_t o = 0; o < shape_.orders; ++o)
+            if (bits & bit_of(o))
+                for (std::size_t v = 0; v < values; ++v)
+                    share_evenly(&energy_[o * order + first * values + v], columns, values);
+    }
+}
+
 void BatchSums::clear() {
     const std::size_t order = shape_.places() * shape_.values();
     const auto forget = [&](auto& sums, std::size_t orders) {
@@ -137,6 +172,7 @@ void BatchSums::clear() {
         std::fill(account->begin(), account->end(), std::uint64_t{0});
     rays = segments = reflections = stuck = spread_ = 0;
     spread_light_.reset();
+    counted_ = true;
 }
 
 }  // namespace asperity

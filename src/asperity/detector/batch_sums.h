@@ -71,6 +71,9 @@ class BatchSums {
     void lose_at_edge(const std::int32_t* paths, std::size_t count, Weights weights) {
         settle(edge_, paths, count, weights);
     }
+    /// Shares what paths have brought to `columns` places, one row after the other, out among them:
+    /// where the light does not tell one azimuth from another. Once, when all paths have left.
+    void share_rows(std::size_t columns);
     /// Forgets everything; cost: the cells touched, and their neighbours.
     void clear();
 
@@ -105,16 +108,22 @@ class BatchSums {
     }
 
     SumShape shape_;
-    // One of these, made when it is first needed: energies of paths that have weights, [(order *
-    // places + place) * values + value], or numbers of those that have lost nothing
+    // Made when they are first needed, and one of them is used at a time: energies of paths that
+    // have weights, [(order * places + place) * values + value], or numbers of those that have lost
+    // nothing
     std::vector<std::uint64_t> energy_;
     std::vector<std::uint32_t> count_;
+    bool counted_ = true;       ///< in numbers, as long as no energy has come
     std::uint64_t spread_ = 0;  ///< rays of escape_spread, which are not in these
     std::shared_ptr<const SpreadLight> spread_light_;
     std::vector<std::uint8_t> touched_;  ///< by block: bits of the orders of which it holds energy
     std::vector<std::uint64_t> escaped_by_bounce_;  ///< [(side * values + value) * bounces + order]
     std::vector<std::uint64_t> absorbed_, truncated_, edge_;  ///< [channel]
 };
+
+/// Shares the sum of every `stride`-th of `count` values out among them: all alike, the first ones
+/// a unit more if they must.
+void share_evenly(std::uint64_t* values, std::size_t count, std::size_t stride);
 
 template <class Work>
 void BatchSums::for_touched(Work work) const {

@@ -13,7 +13,7 @@ struct IlluminationSettings {
     std::vector<double> theta_deg;  ///< fixed polar angles, 0 <= . < 90
     std::vector<double> phi_deg = {
         0.0};                ///< azimuths the light comes from; every theta x every phi
-    bool isotropic = false;  ///< azimuth random per ray, outgoing azimuth relative to it
+    bool isotropic = false;  ///< averaged over the azimuths, outgoing ones relative to it
 };
 
 /// How launch points are spread over the tile.
@@ -28,7 +28,7 @@ struct Incidence {
     int number = 0;          ///< Layer::number
     double theta = 0;        ///< polar angle [rad]
     double phi = 0;          ///< azimuth the light comes from [rad]
-    bool isotropic = false;  ///< every ray has an azimuth of its own instead
+    bool isotropic = false;  ///< from all azimuths alike instead
 };
 
 /// Below this polar angle [rad] light comes straight down: over any surface that check_scale() lets

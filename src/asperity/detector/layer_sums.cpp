@@ -92,10 +92,10 @@ void LayerSums::add(std::uint64_t number, const BatchSums& b) {
         else
             add_scaled_places<kUnit>(b, paths);
     };
-    if (!b.energy_.empty())
-        add.operator()<1>(b.energy_);
-    else
+    if (b.counted_)
         add.operator()<kRayEnergy>(b.count_);
+    else
+        add.operator()<1>(b.energy_);
 }
 
 void LayerSums::add_spreads(const BatchSums& b) {

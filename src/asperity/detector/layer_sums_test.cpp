@@ -58,6 +58,42 @@ TEST(LayerSums, AnyOrderAndAnyPartsGiveTheSameBits) {
     EXPECT_EQ(merged, forward);
 }
 
+/// Two rows of 20 columns: 3 rays into the first, one after two reflections into the second.
+TEST(LayerSums, RowsAreSharedOutToTheLastUnit) {
+    const SumShape shape{.cells = 40, .orders = 2, .bounces = 4};
+    const std::vector<std::int32_t> first{0, 7, 19}, second{33}, paths{0, 1, 2};
+    const std::vector<float> third(3, 1 / 3.0f);
+    BatchSums b(shape);
+    for (const bool weighted : {false, true, false}) {
+        const std::vector<const float*> weights(weighted ? 1 : 0, third.data());
+        b.escape(0, 1, first.data(), paths.data(), 3, weights);
+        b.escape(0, 2, second.data(), paths.data(), 1, weights);
+        b.rays = 4;
+        b.share_rows(20);
+        LayerSums sums(shape, 4);
+        sums.add(0, b);
+        const std::uint64_t ray = weighted ? to_energy(double{third[0]}) : kRayEnergy;
+        for (std::size_t row = 0; row < 2; ++row) {
+            // The first order holds the row of three, the second one that of one
+            const std::uint64_t total = row == 0 ? 3 * ray : ray;
+            const auto begin = sums.energy.begin() + static_cast<std::ptrdiff_t>(60 * row);
+            EXPECT_EQ(std::accumulate(begin, begin + 20, std::uint64_t{0}), total);
+            const auto [least, most] = std::minmax_element(begin, begin + 20);
+            EXPECT_LE(*most - *least, 1u);
+        }
+        EXPECT_EQ(std::accumulate(sums.energy.begin(), sums.energy.end(), std::uint64_t{0}),
+                  4 * ray);
+        b.clear();
+        // Paths that are not shared out come next, as they do from another layer
+        b.escape(0, 1, second.data(), paths.data(), 1, {});
+        b.rays = 4;
+        LayerSums next(shape, 4);
+        next.add(0, b);
+        EXPECT_EQ(next.energy[33], kRayEnergy);
+        b.clear();
+    }
+}
+
 TEST(LayerSums, UnlikeLayersAreNotAdded) {
     LayerSums sums(kShape, 101);
     EXPECT_THROW(sums += LayerSums(kShape, 100), Error);

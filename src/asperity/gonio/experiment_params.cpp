@@ -103,7 +103,8 @@ ParamTable<IlluminationSettings> illumination_params() {
             field(&S::isotropic,
                   {.name = "isotropic",
                    .label = "Light from all azimuths",
-                   .doc = "random azimuth per ray, outgoing azimuth relative to it: for surfaces "
+                   .doc = "averaged over the azimuth of the light, from which that of what "
+                          "leaves is counted: for surfaces "
                           "that are the same from all sides"}),
         });
 }

@@ -26,8 +26,13 @@ class BatchRandom {
     explicit BatchRandom(const BatchRequest& batch)
         : random_(batch.seed, batch.stream), first_(std::uint64_t{batch.index} << kBatchShift) {}
 
-    std::array<std::uint64_t, 2> shift() const { return random_.bits64(first_, kShift); }
-    std::array<std::uint64_t, 2> first_cell() const { return random_.bits64(first_, kFirstCell); }
+    /// Of a lattice; a batch may be made of several, the sweeps of light from all around.
+    std::array<std::uint64_t, 2> shift(std::uint64_t sweep = 0) const {
+        return random_.bits64(first_ + sweep, kShift);
+    }
+    std::array<std::uint64_t, 2> first_cell(std::uint64_t sweep = 0) const {
+        return random_.bits64(first_ + sweep, kFirstCell);
+    }
     std::array<std::uint64_t, 2> bits(std::uint64_t ray) const {
         return random_.bits64(first_ + ray, kPosition);
     }

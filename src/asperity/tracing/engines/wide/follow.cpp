@@ -38,11 +38,18 @@ bool Follower::follow(const Scene& scene, const BatchRequest& request, BatchSums
     // What a stopped run has left behind
     scene.tracer.clear(wave_);
     counted_ = 0;
+    turn_ = {};
+    const bool around = SweepsAround::possible(scene.surface, scene.light, request.pattern);
+    if (around && !scene.tracer.grid().few_azimuths)
+        return follow_around(scene, SweepsAround(scene.surface, scene.light, request), sums, run);
     if (SweepBatch::possible(scene.surface, scene.light, request.pattern))
         return follow_lines(scene, SweepBatch(scene.surface, scene.light, request), sums, run);
     const LaunchBatch batch(scene.surface, double{scene.tracer.max_height()}, scene.light, request);
-    const bool in_rows = request.pattern == LaunchPattern::LowDiscrepancy &&
-                         scene.tracer.periodic() && !scene.light.isotropic;
+    // What is left of the lattice's light on periodic surfaces comes straight down, but for light
+    // from all around onto facets that look into a few azimuths: from as many as there are rays, or
+    // few of its azimuths would tell much of the rest
+    const bool in_rows =
+        request.pattern == LaunchPattern::LowDiscrepancy && scene.tracer.periodic() && !around;
     return in_rows ? follow_rows(scene, batch, sums, run) : follow_each(scene, batch, sums, run);
 }
 
@@ -61,6 +68,18 @@ bool Follower::follow_lines(const Scene& scene, const SweepBatch& batch, BatchSu
     return true;
 }
 
+/// Light from all around: sweep by sweep, each sorted by the azimuth from its own.
+bool Follower::follow_around(const Scene& scene, const SweepsAround& batch, BatchSums& sums,
+                             Run& run) {
+    for (std::uint64_t k = 0; k < batch.sweeps(); ++k) {
+        const Incidence light = batch.light(k);
+        direction_ = direction_of_light(scene.tracer, light);
+        turn_ = {static_cast<float>(std::cos(light.phi)), static_cast<float>(std::sin(light.phi))};
+        if (!follow_lines(scene, batch.sweep(k), sums, run)) return false;
+    }
+    return true;
+}
+
 bool Follower::follow_rows(const Scene& scene, const LaunchBatch& batch, BatchSums& sums,
                            Run& run) {
     for (std::uint64_t r = 0; r < batch.rows(); r += kRowsOfPortion) {
@@ -68,11 +87,14 @@ bool Follower::follow_rows(const Scene& scene, const LaunchBatch& batch, BatchSu
         run.advance(launch_rows(scene, batch, r, sums));
     }
     finish(scene, sums);
+    // It has no azimuth, so all to count from are as good
+    if (scene.light.isotropic) sums.share_rows(static_cast<std::size_t>(scene.detector.columns()));
     return true;
 }
 
 bool Follower::follow_each(const Scene& scene, const LaunchBatch& batch, BatchSums& sums,
                            Run& run) {
+    if (scene.light.isotropic) turn_ = {1, 0, &cos_phi_, &sin_phi_};
     for (std::uint64_t first = 0; first < batch.rays(); first += kWave) {
         if (!run.keep_going()) return false;
         const std::uint64_t last = std::min(first + kWave, batch.rays());
@@ -141,6 +163,7 @@ void Follower::finish(const Scene& scene, BatchSums& sums) {
     if (counted_ > 0) sums.escape_spread(counted_, scene.known->light());
     sums.reflections += counted_;
     sums.segments += counted_;
+    counted_ = 0;
 }
 
 /// Follows the rays of parallel light that have been launched.
@@ -212,9 +235,7 @@ void Follower::reflect(const Scene& scene, bool parallel) {
 void Follower::settle(const Scene& scene, int reflections, BatchSums& sums) {
     const Escapes& escapes = wave_.escapes;
     if (escapes.count > 0) {
-        find_cells(escapes, scene.detector, scene.tracer.mirrored() ? -1.0f : 1.0f,
-                   scene.light.isotropic ? &cos_phi_ : nullptr,
-                   scene.light.isotropic ? &sin_phi_ : nullptr, cells_);
+        find_cells(escapes, scene.detector, scene.tracer.mirrored() ? -1.0f : 1.0f, turn_, cells_);
         sums.escape(0, reflections, cells_, escapes.path, escapes.count, weights_of_);
     }
     sums.lose_at_edge(wave_.edge, wave_.edge_count, weights_of_);

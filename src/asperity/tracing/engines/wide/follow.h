@@ -5,7 +5,8 @@
 #include <asperity/detector/batch_sums.h>
 #include <asperity/detector/detector.h>
 #include <asperity/optics/fresnel.h>
-#include <asperity/tracing/engines/wide/sweep_batch.h>
+#include <asperity/tracing/engines/wide/path_kernels.h>
+#include <asperity/tracing/engines/wide/sweeps_around.h>
 #include <asperity/tracing/engines/wide/wide_tracer.h>
 #include <asperity/tracing/launch.h>
 
@@ -37,6 +38,7 @@ class Follower {
     bool follow(const Scene& scene, const BatchRequest& request, BatchSums& sums, Run& run);
 
   private:
+    bool follow_around(const Scene& scene, const SweepsAround& batch, BatchSums& sums, Run& run);
     bool follow_lines(const Scene& scene, const SweepBatch& batch, BatchSums& sums, Run& run);
     bool follow_rows(const Scene& scene, const LaunchBatch& batch, BatchSums& sums, Run& run);
     bool follow_each(const Scene& scene, const LaunchBatch& batch, BatchSums& sums, Run& run);
@@ -54,6 +56,7 @@ class Follower {
     PathWave wave_;
     std::uint64_t counted_ = 0;  ///< rays of the batch onto known facets
     Vec3 direction_;             ///< of parallel light
+    Turn turn_;                  ///< of the azimuths it is sorted by
     std::vector<LaunchRow> rows_;
     LaunchLine line_;
     PerPath<float> cosine_, cos_phi_, sin_phi_;

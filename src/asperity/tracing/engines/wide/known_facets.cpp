@@ -88,6 +88,8 @@ class KnownFacets::Look {
     std::size_t channels() const { return std::max<std::size_t>(1, reflectance_.size()); }
     /// Of the light, in the frame of the tracer.
     const Vec3& direction() const { return direction_; }
+    bool all_sides() const { return scene_.light.isotropic; }
+    std::size_t columns() const { return static_cast<std::size_t>(scene_.detector.columns()); }
     std::size_t detector_cells() const { return static_cast<std::size_t>(scene_.detector.cells()); }
 
     void look_at(int j) {
@@ -196,6 +198,11 @@ void KnownFacets::look_at_all(const Look& look, const Run& run, int threads) {
         totals[0] += totals[part];
         for (std::size_t k = 0; k < sums[part].size(); ++k) sums[0][k] += sums[part][k];
     }
+    // Straight down light has no azimuth, and goes to all sides alike
+    if (look.all_sides())
+        for (std::size_t k = 0; k < sums[0].size(); k += look.columns() * look.channels())
+            for (std::size_t c = 0; c < look.channels(); ++c)
+                share_evenly(&sums[0][k + c], look.columns(), look.channels());
     light_ = std::make_shared<const SpreadLight>(spread_of(sums[0], look.channels(), totals[0]));
 }
 

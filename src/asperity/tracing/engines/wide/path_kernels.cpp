@@ -104,17 +104,21 @@ class CellFinder {
 };
 
 void FindCells(const Escapes& escapes, bool equal_area, int rows, int columns, float mirror_x,
-               const PerPath<float>* cos_phi, const PerPath<float>* sin_phi,
-               PerPath<std::int32_t>& cells) {
+               const Turn& turn, PerPath<std::int32_t>& cells) {
     const CellFinder find(equal_area, rows, columns);
+    const bool turned = turn.cos_phi_of || turn.sin_phi != 0 || turn.cos_phi != 1;
+    Floats c = all(turn.cos_phi), s = all(turn.sin_phi);
     for (std::size_t k = 0; k < escapes.count; k += kLanes) {
         Floats x = hn::Mul(all(mirror_x), load(escapes.x, k)), y = load(escapes.y, k);
-        if (cos_phi) {
+        if (turn.cos_phi_of) {
             const Ints path = only(first_lanes(k, escapes.count), load(escapes.path, k));
-            const Floats c = gather(*cos_phi, path), s = gather(*sin_phi, path);
-            const Floats turned = hn::Add(hn::Mul(c, x), hn::Mul(s, y));
+            c = gather(*turn.cos_phi_of, path);
+            s = gather(*turn.sin_phi_of, path);
+        }
+        if (turned) {
+            const Floats along = hn::Add(hn::Mul(c, x), hn::Mul(s, y));
             y = hn::Sub(hn::Mul(c, y), hn::Mul(s, x));
-            x = turned;
+            x = along;
         }
         store(find(x, y, load(escapes.z, k)), cells, k);
     }
@@ -234,12 +238,11 @@ void reflect_paths(const FacetPoints& points, const Vec3* parallel, const Padded
         HWY_DYNAMIC_DISPATCH(ReflectAny)(points, per_x, per_y, leaving, cosine);
 }
 
-void find_cells(const Escapes& escapes, const Detector& detector, float mirror_x,
-                const PerPath<float>* cos_phi, const PerPath<float>* sin_phi,
+void find_cells(const Escapes& escapes, const Detector& detector, float mirror_x, const Turn& turn,
                 PerPath<std::int32_t>& cells) {
     HWY_DYNAMIC_DISPATCH(FindCells)
     (escapes, detector.kind() == DetectorKind::EqualArea, detector.rows(), detector.columns(),
-     mirror_x, cos_phi, sin_phi, cells);
+     mirror_x, turn, cells);
 }
 
 void look_at_facets(const WideGrid& grid, const Detector& detector, float mirror_x, Vec3 d,

@@ -16,11 +16,17 @@ namespace asperity {
 void reflect_paths(const FacetPoints& points, const Vec3* parallel, const PaddedHeights& heights,
                    Directions& leaving, PerPath<float>* cosine);
 
+/// The azimuth of the light, from which that of what leaves is counted: of all paths, or of each
+/// path its own where these are not null.
+struct Turn {
+    float cos_phi = 1, sin_phi = 0;
+    const PerPath<float>*cos_phi_of = nullptr, *sin_phi_of = nullptr;
+};
+
 /// Detector::cell_of for the directions of paths, within some 1e-7 rad of the cells' edges.
-/// mirror_x is -1 if the directions are to be mirrored in x, else 1; cos_phi and sin_phi, by path,
-/// turn them back about the normal unless they are null.
-void find_cells(const Escapes& escapes, const Detector& detector, float mirror_x,
-                const PerPath<float>* cos_phi, const PerPath<float>* sin_phi,
+/// mirror_x is -1 if the directions are to be mirrored in x, else 1; then they are turned back
+/// about the normal.
+void find_cells(const Escapes& escapes, const Detector& detector, float mirror_x, const Turn& turn,
                 PerPath<std::int32_t>& cells);
 
 /// What becomes of parallel light on the lower or upper facets of a row of cells, one value each;

@@ -37,7 +37,7 @@ bool SweepBatch::possible(const Heightfield& surface, const Incidence& incidence
 }
 
 SweepBatch::SweepBatch(const Heightfield& surface, const Incidence& incidence,
-                       const BatchRequest& request)
+                       const BatchRequest& request, std::uint64_t sweep)
     : rays_(request.rays) {
     const Vec3 d = from_spherical(incidence.theta, incidence.phi);
     const double per_x = std::abs(d.x) / surface.dx, per_y = std::abs(d.y) / surface.dy;
@@ -59,8 +59,8 @@ SweepBatch::SweepBatch(const Heightfield& surface, const Incidence& incidence,
     passes_ = std::clamp<std::uint64_t>(kCellsPerRayOfPass * rays_ / (lines_of_pass_ * cells_along),
                                         stays ? 2 : 1, kMostPasses);
     const BatchRandom random(request);
-    shift_ = {random.shift()[0], random.shift()[1]};
-    const auto first = random.first_cell();
+    const auto shift = random.shift(sweep), first = random.first_cell(sweep);
+    shift_ = {shift[0], shift[1]};
     first_cell_ = static_cast<std::uint32_t>((Wide{first[0]} * cells_across_) >> 64);
     first_share_ = first[1];
 }

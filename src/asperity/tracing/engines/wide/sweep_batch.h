@@ -17,7 +17,9 @@ class SweepBatch {
     /// Whether light of a batch can come so.
     static bool possible(const Heightfield& surface, const Incidence& incidence,
                          LaunchPattern pattern);
-    SweepBatch(const Heightfield& surface, const Incidence& incidence, const BatchRequest& request);
+    /// `sweep` tells several of one batch apart.
+    SweepBatch(const Heightfield& surface, const Incidence& incidence, const BatchRequest& request,
+               std::uint64_t sweep = 0);
 
     /// The s-th stripe of lines, s < stripes(), in the frame of a WideTracer, whether that is
     /// mirrored or not. They go over the tile in passes. Few rays leave parts of it out, elsewhere

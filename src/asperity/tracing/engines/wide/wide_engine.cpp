@@ -42,8 +42,10 @@ class WideEngine : public Engine {
                                       std::uint64_t rays, const Run& run,
                                       int threads) const override {
         auto light = std::make_unique<WideLight>(setup_, tracer_, incidence);
-        const bool lattice = pattern == LaunchPattern::LowDiscrepancy && !incidence.isotropic;
-        if (lattice && KnownFacets::pay(tracer_, rays)) light->look_at_facets(run, threads);
+        const bool lattice = pattern == LaunchPattern::LowDiscrepancy;
+        const bool one_direction = !incidence.isotropic || incidence.theta == 0;
+        if (lattice && one_direction && KnownFacets::pay(tracer_, rays))
+            light->look_at_facets(run, threads);
         return light;
     }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/tracing/engines/wide/wide_grid.h>
 
+#include <asperity/core/directions.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -52,6 +55,35 @@ double roughness_of_slopes(const PaddedHeights& h) {
     return first > 0 ? second / first : 0.0;
 }
 
+/// Whether the azimuths of some thousand slopes come together in a few narrow sectors: their
+/// shares, squared, add up to five times that of an even spread.
+bool crowded_azimuths(const PaddedHeights& h) {
+    constexpr int kSectors = 64;
+    constexpr double kCrowded = 5.0 / kSectors;
+    std::array<double, kSectors> counts{};
+    double all = 0;
+    const auto add = [&](float along_x, float along_y) {
+        const double x = double{along_x} / h.dx(), y = double{along_y} / h.dy();
+        if (x == 0 && y == 0) return;  // a level facet looks nowhere
+        const double turns = std::atan2(y, x) / (2 * kPi) + 1;
+        ++counts[static_cast<std::size_t>(turns * kSectors + 0.5) % kSectors];
+        ++all;
+    };
+    for (int a = 0; a < kProbes; ++a)
+        for (int b = 0; b < kProbes; ++b) {
+            // Not all in step with what repeats in both directions
+            const int i = (probe(a, h.cells_x()) + 7 * b) % h.cells_x(),
+                      j = (probe(b, h.cells_y()) + 5 * a) % h.cells_y();
+            const float h00 = h.at(i, j), h10 = h.at(i + 1, j), h01 = h.at(i, j + 1),
+                        h11 = h.at(i + 1, j + 1);
+            add(h10 - h00, h01 - h00);
+            add(h11 - h01, h11 - h10);
+        }
+    double squares = 0;
+    for (const double count : counts) squares += count * count;
+    return squares > kCrowded * all * all;
+}
+
 }  // namespace
 
 WideGrid::WideGrid(const PaddedHeights& h, const Horizon& free)
@@ -75,6 +107,7 @@ WideGrid::WideGrid(const PaddedHeights& h, const Horizon& free)
     const double range = double{h.max_height()} - double{h.min_height()};
     horizon_pays = share_above(h, free) > 0.1;
     leaps_pay = roughness_of_slopes(h) < 1;
+    few_azimuths = crowded_azimuths(h);
     steepest = static_cast<float>(1.0001 * range * std::hypot(1 / h.dx(), 1 / h.dy()));
     // A path that leaves the patch must still be near it, where the lanes can tell
     longest_leap = periodic ? 0.5f * static_cast<float>(std::min(cells_x, cells_y)) -

@@ -27,6 +27,7 @@ struct WideGrid {
     int horizon_pitch, pool_shift;
     bool horizon_pays;         ///< enough paths are free by their facet's horizon to look at it
     bool leaps_pay;            ///< the surface is smooth enough for paths to leap
+    bool few_azimuths;         ///< facets look into a few azimuths alone, as those of grooves
     bool gathers_pay = false;  ///< as gathers_pay(), which is asked by the tracer
     float longest_leap;        ///< cells a path may leap over, so that one wrap brings it home
 };
