@@ -36,8 +36,8 @@ mi.set_variant("llvm_ad_rgb")
 dr.set_thread_count(1)
 
 program = sys.argv[1]
-SIZE, TURNS, BOUNCES, ROWS, COLUMNS = 512, 5, 16, 32, 64
-PATHS, OWN_PATHS, FEW_PATHS = 1 << 20, 1 << 23, 1 << 10
+SIZE, TURNS, BOUNCES, ROWS, COLUMNS = 512, 3, 16, 32, 64
+PATHS, OWN_PATHS, FEW_PATHS = 1 << 20, 1 << 25, 1 << 10
 SURFACES = {"thesis noise 0.2": "thesis:roughness=0.2", "Gaussian 0.1": "gaussian:alpha=0.141421",
             "Gaussian 0.3": "gaussian:alpha=0.424264"}
 THETAS, PHI = (0, 45), 30
