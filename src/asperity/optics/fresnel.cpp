@@ -51,8 +51,15 @@ void Fresnel::eval(double cos_theta, std::span<double> f) const {
 }
 
 void Fresnel::eval(std::span<const float> cos_theta, std::span<float* const> f) const {
-    for (std::size_t c = 0; c < channels_.size(); ++c)
-        law_->reflectances(cos_theta, channels_[c], f[c]);
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+        if (law_->reflectances != nullptr) {
+            law_->reflectances(cos_theta, channels_[c], f[c]);
+            continue;
+        }
+        for (std::size_t k = 0; k < cos_theta.size(); ++k)
+            f[c][k] = static_cast<float>(
+                law_->reflectance(static_cast<double>(cos_theta[k]), channels_[c]));
+    }
 }
 
 }  // namespace asperity

@@ -2,28 +2,44 @@
 #include <asperity/optics/optics_params.h>
 
 #include <asperity/optics/materials.h>
+#include <asperity/optics/scattering_law.h>
 #include <asperity/params/fields.h>
 
 namespace asperity {
 
 namespace {
 
-constexpr Names<FresnelKind, 4> kFresnels = {{
-    {"none", FresnelKind::None},
-    {"schlick", FresnelKind::Schlick},
-    {"dielectric", FresnelKind::Dielectric},
-    {"conductor", FresnelKind::Conductor},
-}};
+/// The choices are the rows of scattering_laws().
+Param<OpticsSettings> law_row() {
+    using S = OpticsSettings;
+    ParamInfo info{.name = "fresnel",
+                   .doc = "none (perfect mirrors), schlick, dielectric or conductor",
+                   .otherwise = "what the options below imply",
+                   .type = ParamType::Choice};
+    for (const ScatteringLaw& law : scattering_laws()) info.choices.push_back(law.name);
+    return {info, [](const S& s) { return scattering_law(s.fresnel).name; },
+            [info](S& s, const ParamValue& value) {
+                for (const ScatteringLaw& law : scattering_laws())
+                    if (law.name == std::get<std::string>(value)) s.fresnel = law.kind;
+            }};
+}
+
+/// "Ag, Al, Au, Cr, Cu, Fe, Ni or Ti"
+std::string symbols() {
+    std::string list;
+    for (const TabulatedMaterial& metal : materials()) {
+        const bool last = &metal == &materials().back();
+        list += (list.empty() ? "" : last ? " or " : ", ") + std::string(metal.symbol);
+    }
+    return list;
+}
 
 }  // namespace
 
 ParamTable<OpticsSettings> optics_params() {
     using S = OpticsSettings;
     ParamTable<S> table = {
-        field(&S::fresnel, kFresnels,
-              {.name = "fresnel",
-               .doc = "none (perfect mirrors), schlick, dielectric or conductor",
-               .otherwise = "what the options below imply"}),
+        law_row(),
         field(&S::f0, {.name = "f0",
                        .label = "F0",
                        .metavar = "X[,Y,Z]",
@@ -45,7 +61,7 @@ ParamTable<OpticsSettings> optics_params() {
         field(&S::material, {.name = "material",
                              .metavar = "NAME",
                              .absent = "none",
-                             .doc = "conductor: Al, Ag, Au, Cu, Cr, Fe, Ni or Ti"}),
+                             .doc = "conductor: " + symbols()}),
         field(&S::wavelengths, {.name = "wavelengths",
                                 .metavar = "L[,L...]",
                                 .unit = "nm",

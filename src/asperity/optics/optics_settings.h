@@ -6,7 +6,8 @@
 
 namespace asperity {
 
-/// How much a facet reflects.
+/// How much a facet reflects. Laws that programs add have numbers beyond these, see
+/// optics/scattering_law.h.
 enum class FresnelKind {
     None,        ///< F = 1: the thesis' perfect mirrors
     Schlick,     ///< thesis eq. 3.3 with F0 per channel, or F0 from `ior` by thesis eq. 3.5
@@ -20,7 +21,7 @@ struct OpticsSettings {
     std::vector<double> f0;   ///< Schlick: reflectance along the normal, 0 .. 1
     std::vector<double> ior;  ///< real part of the index against the outside, > 0
     std::vector<double> k;    ///< imaginary part, >= 0
-    std::string material;     ///< conductor: "Al", "Ag", "Au", "Cu", "Cr", "Fe", "Ni" or "Ti"
+    std::string material;     ///< conductor: "Au", a symbol in materials()
     /// Wavelengths of the channels of a `material` [nm], 400 .. 700. Empty: one each for red, green
     /// and blue, kRgbWavelengths.
     std::vector<double> wavelengths;

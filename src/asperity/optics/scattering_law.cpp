@@ -2,8 +2,10 @@
 #include <asperity/core/error.h>
 #include <asperity/optics/scattering_law.h>
 
-#include <array>
+#include <deque>
+#include <mutex>
 #include <string>
+#include <utility>
 
 namespace asperity {
 
@@ -13,23 +15,53 @@ ScatteringLaw schlick_law();
 ScatteringLaw dielectric_law();
 ScatteringLaw conductor_law();
 
-std::span<const ScatteringLaw> scattering_laws() {
-    static const std::array laws = {
+namespace {
+
+struct Registry {
+    std::mutex mutex;
+    std::deque<ScatteringLaw> laws = {
+        // rows stay where they are
         mirror_law(),
         schlick_law(),
         dielectric_law(),
         conductor_law(),
     };
-    return laws;
+};
+
+Registry& registry() {
+    static Registry registry;
+    return registry;
+}
+
+}  // namespace
+
+std::vector<ScatteringLaw> scattering_laws() {
+    const std::lock_guard lock(registry().mutex);
+    return {registry().laws.begin(), registry().laws.end()};
 }
 
 const ScatteringLaw& scattering_law(FresnelKind kind) {
+    const std::lock_guard lock(registry().mutex);
     std::string names;
-    for (const ScatteringLaw& law : scattering_laws()) {
+    for (const ScatteringLaw& law : registry().laws) {
         if (law.kind == kind) return law;
-        names += (names.empty() ? "" : ", ") + std::string(law.name);
+        names += (names.empty() ? "" : ", ") + law.name;
     }
     throw Error(ErrorCode::Usage, "is not one of " + names, "fresnel");
+}
+
+FresnelKind add_scattering_law(ScatteringLaw law) {
+    const auto refuse_law = [&](const char* why) { throw Error(ErrorCode::Usage, why, law.name); };
+    if (law.name.empty()) refuse_law("a law needs a name");
+    if (law.channels == nullptr || law.reflectance == nullptr)
+        refuse_law("a law needs functions for its channels and its reflectance");
+    const std::lock_guard lock(registry().mutex);
+    std::deque<ScatteringLaw>& all = registry().laws;
+    for (const ScatteringLaw& known : all)
+        if (known.name == law.name) refuse_law("there is a law of that name");
+    law.kind = static_cast<FresnelKind>(all.size());
+    all.push_back(std::move(law));
+    return all.back().kind;
 }
 
 }  // namespace asperity

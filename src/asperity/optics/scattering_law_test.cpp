@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/error.h>
+#include <asperity/optics/fresnel.h>
+#include <asperity/optics/optics_params.h>
 #include <asperity/optics/scattering_law.h>
 
 #include <gtest/gtest.h>
@@ -56,6 +58,59 @@ TEST(ScatteringLawTest, LanesAreTheLawInSinglePrecision) {
             EXPECT_NEAR(law.reflectance(1, channel), channel.f0, 1e-12) << law.name;
         }
     }
+}
+
+/// A law of a program: grey at every angle.
+ScatteringLaw grey_law(const char* name) {
+    return {FresnelKind::None,
+            name,
+            "Grey",
+            "f0 at every angle",
+            [](const OpticsSettings& s) {
+                std::vector<FacetChannel> channels;
+                for (const double f0 : s.f0) channels.push_back({f0, 1, 0});
+                if (channels.empty()) throw Error(ErrorCode::Usage, "grey needs it", "f0");
+                return channels;
+            },
+            [](double, const FacetChannel& c) { return c.f0; },
+            nullptr};
+}
+
+TEST(ScatteringLawTest, AProgramAddsItsOwn) {
+    OpticsSettings s;
+    const auto apply_law = [&](const char* name) {
+        find(optics_params(), "fresnel")->apply(s, name);
+    };
+    EXPECT_THROW(apply_law("grey"), Error);
+    const FresnelKind grey = add_scattering_law(grey_law("grey"));
+    apply_law("grey");
+    EXPECT_EQ(s.fresnel, grey);
+    EXPECT_EQ(find(optics_params(), "fresnel")->text(s), "grey");
+    EXPECT_THROW(Fresnel{s}, Error);
+    s.f0 = {0.25, 0.5};
+    const Fresnel fresnel(s);
+    ASSERT_EQ(fresnel.channels(), 2);
+    EXPECT_FALSE(fresnel.perfect());
+    std::array<double, 2> f{};
+    fresnel.eval(0.125, f);
+    EXPECT_EQ(f[1], 0.5);
+    // In single precision, without a function of its own for many angles.
+    const std::array<float, 3> cosines = {0, 0.5F, 1};
+    std::array<float, 3> first{}, second{};
+    const std::array<float*, 2> both = {first.data(), second.data()};
+    fresnel.eval(cosines, both);
+    EXPECT_EQ(first, (std::array{0.25F, 0.25F, 0.25F}));
+    EXPECT_EQ(second[2], 0.5F);
+}
+
+TEST(ScatteringLawTest, WhatIsNoLawIsRefused) {
+    const std::size_t before = scattering_laws().size();
+    EXPECT_THROW(add_scattering_law(grey_law("")), Error);
+    EXPECT_THROW(add_scattering_law(grey_law("schlick")), Error);
+    ScatteringLaw empty = grey_law("empty");
+    empty.reflectance = nullptr;
+    EXPECT_THROW(add_scattering_law(empty), Error);
+    EXPECT_EQ(scattering_laws().size(), before);
 }
 
 }  // namespace
