@@ -25,8 +25,9 @@ constexpr double kMostOfSecond = 1 << 21;
 constexpr double kTrySeconds = 0.7;  ///< what the second try may cost
 
 double rays_per_layer(const Experiment& e, const Heightfield& surface) {
-    return e.run.rays > 0 ? static_cast<double>(e.run.rays)
-                          : e.run.jitter * static_cast<double>(surface.cell_count());
+    return e.run.rays > 0
+               ? static_cast<double>(e.run.rays)
+               : jitter_of(e.run, surface.cell_count()) * static_cast<double>(surface.cell_count());
 }
 
 /// The first, the middle and the last direction, with so many rays each.

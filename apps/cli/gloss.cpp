@@ -96,7 +96,6 @@ class GlossVerb {
 
         const Heightfield patch = io::load_patch(experiment.surface, run);
         const Heightfield surface = io::tiled(patch, experiment.surface);
-        if (!experiment_.rays_given()) settings.run.jitter = default_jitter(surface.cell_count());
         const GlossReport report = measure_gloss(surface, experiment.optics, settings, run);
         progress.clear();
         if (report.readings.empty())

@@ -189,6 +189,14 @@ std::optional<Measurement> Measuring::left_behind(const Measurement& head, const
     return so_far;
 }
 
+void Measuring::warn_of_checkpoint(const std::string& path) {
+    if (!exists(checkpoint_of(path))) return;
+    write_err(fmt::format(
+        "asperity: warning: {} of a run that did not end will be replaced, --resume would "
+        "go on from it\n",
+        checkpoint_of(path)));
+}
+
 void Measuring::keep(const Measurement& so_far, const std::string& path) {
     if (path == kStandardOutput) return;
     // Work goes on without one, but not without a word
@@ -213,7 +221,6 @@ int Measuring::measure(Task task, const std::string& path) {
     ProgressBar progress(run, quiet_);
 
     const Heightfield surface = io::load_surface(task.experiment.surface, run);
-    if (!task.rays_given) task.experiment.run.jitter = default_jitter(surface.cell_count());
     MeasureScope scope{std::move(task.so_far), task.part, task.parts};
     // A result to be refined is where to begin without a checkpoint
     if (resume_ && (!scope.so_far || exists(checkpoint_of(path)))) {
@@ -222,6 +229,7 @@ int Measuring::measure(Task task, const std::string& path) {
         head.parts = task.parts;
         if (auto found = left_behind(head, path, say)) scope.so_far = std::move(found);
     }
+    if (!resume_ && !path.empty() && path != kStandardOutput) warn_of_checkpoint(path);
     const bool fresh = !scope.so_far && task.parts == 1;
     MeasureListener listener;
     listener.begun = [&](const Measurement& begun) {

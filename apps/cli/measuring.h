@@ -34,7 +34,6 @@ class Measuring {
     /// What to measure, and from where to go on.
     struct Task {
         Experiment experiment;
-        bool rays_given = true;  ///< else as many as the surface asks for
         std::optional<Measurement> so_far = {};
         int part = 1, parts = 1;
     };
@@ -47,10 +46,14 @@ class Measuring {
                                            const Talk& say) const;
     /// Writes the checkpoint beside `path`; that it could not is said once.
     void keep(const Measurement& so_far, const std::string& path);
+    /// Says that the checkpoint of an earlier run will be lost, if there is one: it stays until
+    /// this run writes its first, or ends.
+    static void warn_of_checkpoint(const std::string& path);
     /// No checkpoint is wanted: an hour.
     std::chrono::milliseconds checkpoint_period() const;
     /// Throws Error(Stopped): there is nothing to write.
     [[noreturn]] static void refuse_nothing();
+    bool resumes() const { return resume_; }
     bool quiet() const { return quiet_; }
     bool json() const { return json_; }
     int threads() const { return threads_.threads(); }

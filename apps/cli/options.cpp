@@ -177,7 +177,6 @@ Experiment ExperimentOptions::read(const std::string& spec) {
             throw Error(ErrorCode::Usage, "the value is empty", key);
         apply_setting(experiment, key, value);
         tell_two_bands(key, value);
-        note_given(key);
     }
     refuse_unused(experiment);
     // Perfect mirrors have neither index nor material: who gives one means what it implies. A
@@ -196,10 +195,6 @@ void ExperimentOptions::refuse_unused(const Experiment& experiment) const {
         if (option->count() == 0 || param->used(experiment)) continue;
         throw Error(ErrorCode::Usage, param->unused(experiment), key);
     }
-}
-
-void ExperimentOptions::note_given(const std::string& key) {
-    if (key == "jitter" || key == "rays") rays_given_ = true;
 }
 
 bool ExperimentOptions::any_given() const {
@@ -224,7 +219,6 @@ void ExperimentOptions::apply_config(Experiment& experiment, const std::string& 
             throw Error(ErrorCode::InvalidInput,
                         "a file of settings may not name the output; say it with -o", where);
         if (setting.key == "fresnel") fresnel_in_config_ = true;
-        note_given(setting.key);
         if (find(table, setting.key)) {
             try {
                 apply_setting(experiment, setting.key, setting.value);

@@ -76,17 +76,15 @@ class ExperimentOptions {
     /// True when one of the experiment's options was given on the command line.
     bool any_given() const;
     /// After read(): true when the number of rays was, there or in the file.
-    bool rays_given() const { return rays_given_; }
 
   private:
     void apply_config(Experiment& experiment, const std::string& path);
     /// Throws Error(Usage, option) for one that the chosen kind has no use for.
     void refuse_unused(const Experiment& experiment) const;
-    void note_given(const std::string& key);
 
     CLI::App* app_ = nullptr;
     CLI::Option* config_ = nullptr;
-    bool fresnel_in_config_ = false, rays_given_ = false;
+    bool fresnel_in_config_ = false;
     std::vector<std::pair<std::string, CLI::Option*>> options_;  ///< key, option
 };
 

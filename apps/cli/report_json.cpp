@@ -8,6 +8,7 @@
 #include <asperity/core/energy.h>
 #include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/experiment_params.h>
+#include <asperity/surface/surface_figures.h>
 
 namespace asperity::cli {
 
@@ -84,23 +85,9 @@ Json json_of(const Value& value) {
 }  // namespace
 
 Json to_json(const SurfaceStatistics& s) {
-    return {{"rms_height", s.rms_height},
-            {"mean_height", s.mean_height},
-            {"min_height", s.min_height},
-            {"max_height", s.max_height},
-            {"skewness", s.skewness},
-            {"kurtosis", s.kurtosis},
-            {"mean_slope_x", s.mean_slope_x},
-            {"mean_slope_y", s.mean_slope_y},
-            {"rms_slope_x", s.rms_slope_x},
-            {"rms_slope_y", s.rms_slope_y},
-            {"rms_gradient", s.rms_gradient},
-            {"alpha_x", s.alpha_x},
-            {"alpha_y", s.alpha_y},
-            {"slope_correlation", s.slope_correlation},
-            {"mean_tilt_deg", s.mean_tilt_deg},
-            {"max_tilt_deg", s.max_tilt_deg},
-            {"area_ratio", s.area_ratio}};
+    Json json = Json::object();
+    for (const auto& [name, value] : surface_figures()) json[name] = s.*value;
+    return json;
 }
 
 Json to_json(const Experiment& experiment) {

@@ -50,7 +50,6 @@ class SimulateVerb {
         task.experiment = experiment_.read();
         if (task.experiment.surface.kind == kSurfaceFile)
             require_kind(task.experiment.surface.file, FileKind::Heights);
-        task.rays_given = experiment_.rays_given();
         read_part(task);
         const std::string path = measuring_.has_output() ? measuring_.output() : "";
         measuring_.check(task.experiment, path);

@@ -101,12 +101,13 @@ class SimulateOnRanks {
         Run asked(measuring_.threads());
         const cli::StopOnSignal stop(asked);
         const Heightfield surface = io::load_surface(experiment.surface, asked);
-        if (!experiment_.rays_given()) experiment.run.jitter = default_jitter(surface.cell_count());
         const Measurement head = head_of(surface, experiment, asked);
         require_same_surface(head.surface_digest);
 
         const cli::Talk say(measuring_.quiet() || !first, measuring_.json());
         std::optional<Measurement> so_far = measuring_.left_behind(head, path, say);
+        if (first && !measuring_.resumes() && !path.empty())
+            cli::Measuring::warn_of_checkpoint(path);
         for (bool more = true; more && !any(asked.stop_requested());) {
             so_far = slice(surface, experiment, asked, std::move(so_far), more);
             if (more && first && !path.empty()) measuring_.keep(*so_far, path);

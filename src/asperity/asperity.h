@@ -112,6 +112,7 @@
 #include <asperity/surface/preparation.h>
 #include <asperity/surface/slope_distribution.h>
 #include <asperity/surface/statistics.h>
+#include <asperity/surface/surface_figures.h>
 #include <asperity/surface/surface_kinds.h>
 #include <asperity/surface/surface_params.h>
 #include <asperity/surface/surface_settings.h>

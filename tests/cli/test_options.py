@@ -38,7 +38,7 @@ OPTIONS = {
     "jitter": ([], []),
     "rays": ([], []),
     "until": ([], []),
-    "max-rays": ([], []),
+    "max-rays": (["--until", "50%"], []),
     "batches": ([], []),
     "resolution": ([], []),
     "orders": ([], []),

@@ -6,7 +6,7 @@ import signal
 import subprocess
 import time
 
-from program import PROGRAM, ProgramTest, main
+from program import PROGRAM, ProgramTest, main, run
 
 # A few seconds of one thread, in batches of some milliseconds.
 WORK = ["simulate", "--surface", "gaussian:alpha=0.3,size=128", "--theta", "0,40,75", "--material",
@@ -66,6 +66,17 @@ class Parts(ProgramTest):
         small = ["simulate", "--surface", "flat:size=16", "--theta", "30", "-o", "r.asperity"]
         self.assertIn("there is no r.asperity.checkpoint: starting from the beginning",
                       self.passes(*small, "--resume"))
+
+    def test_a_checkpoint_that_will_be_lost_is_named(self):
+        small = ["simulate", "--surface", "flat:size=16", "--theta", "30", "-o"]
+        self.passes(*small, "r.asperity.checkpoint")
+        warning = "warning: r.asperity.checkpoint of a run that did not end will be replaced"
+        done = run(*small, "r.asperity", "--quiet")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn(warning, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1)
+        self.assert_files("r.asperity")
+        self.assertEqual(run(*small, "r.asperity", "--quiet").stderr, "")
 
     def test_parts_in_any_order(self):
         whole = self.checksum(*WORK)

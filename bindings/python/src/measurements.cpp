@@ -32,16 +32,12 @@ bool has(const SettingTexts& texts, const char* key) {
 }
 
 /// The experiment that settings describe, as the command line reads them: one that does not count
-/// is refused; who names an index or a metal means the law that has one; unless the number of rays
-/// was said it goes by the size of the surface.
-Experiment experiment_of(const SurfaceSettings& surface, std::uint64_t cells,
-                         const SettingTexts& texts) {
+/// is refused; who names an index or a metal means the law that has one.
+Experiment experiment_of(const SurfaceSettings& surface, const SettingTexts& texts) {
     Experiment experiment;
     experiment.surface = surface;
     apply_settings(experiment, texts);
     if (!has(texts, "fresnel")) experiment.optics.fresnel = implied_fresnel(experiment.optics);
-    if (!has(texts, "jitter") && !has(texts, "rays") && cells > 0)
-        experiment.run.jitter = default_jitter(cells);
     return experiment;
 }
 
@@ -49,8 +45,7 @@ Experiment experiment_of(const SurfaceSettings& surface, std::uint64_t cells,
 nb::tuple run_measurement(const SurfaceHandle& surface, const SettingTexts& texts, int threads,
                           const Callbacks& callbacks,
                           const std::optional<MeasurementHandle>& so_far, int part, int parts) {
-    const Experiment experiment =
-        experiment_of(surface.settings, surface.heights->cell_count(), texts);
+    const Experiment experiment = experiment_of(surface.settings, texts);
     validate(experiment);
     Run run(threads);
     auto outcome = run_task(run, callbacks, [&] {
@@ -87,12 +82,10 @@ nb::dict experiment_dict(const Experiment& experiment) {
 /// The experiment that settings describe, checked, as text: equal experiments, equal texts. The
 /// surface is not made: where nobody says the number of rays, the text says so.
 std::string experiment_text(const SettingTexts& surface, const SettingTexts& texts) {
-    const Experiment experiment = experiment_of(surface_settings(surface), 0, texts);
+    const Experiment experiment = experiment_of(surface_settings(surface), texts);
     validate(experiment);
     const Fresnel checked(experiment.optics);
-    std::string text = to_text(experiment);
-    if (!has(texts, "jitter") && !has(texts, "rays")) text += "jitter = auto\n";
-    return text;
+    return to_text(experiment);
 }
 
 template <typename Enum>

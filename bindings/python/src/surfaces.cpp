@@ -9,6 +9,7 @@
 #include <asperity/gonio/experiment_text.h>
 #include <asperity/pictures/pictures.h>
 #include <asperity/surface/statistics.h>
+#include <asperity/surface/surface_figures.h>
 #include <asperity/surface/surface_text.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
@@ -127,23 +128,7 @@ void set_state(SurfaceHandle& s, const State& state) {
 
 nb::dict statistics_of(const SurfaceStatistics& s) {
     nb::dict d;
-    d["mean_height"] = s.mean_height;
-    d["min_height"] = s.min_height;
-    d["max_height"] = s.max_height;
-    d["rms_height"] = s.rms_height;
-    d["skewness"] = s.skewness;
-    d["kurtosis"] = s.kurtosis;
-    d["mean_slope_x"] = s.mean_slope_x;
-    d["mean_slope_y"] = s.mean_slope_y;
-    d["rms_slope_x"] = s.rms_slope_x;
-    d["rms_slope_y"] = s.rms_slope_y;
-    d["rms_gradient"] = s.rms_gradient;
-    d["alpha_x"] = s.alpha_x;
-    d["alpha_y"] = s.alpha_y;
-    d["slope_correlation"] = s.slope_correlation;
-    d["mean_tilt_deg"] = s.mean_tilt_deg;
-    d["max_tilt_deg"] = s.max_tilt_deg;
-    d["area_ratio"] = s.area_ratio;
+    for (const auto& [name, value] : surface_figures()) d[name] = s.*value;
     return d;
 }
 

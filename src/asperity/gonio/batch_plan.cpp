@@ -16,12 +16,13 @@ constexpr std::uint64_t kLargestBatch = 1 << 20;
 }  // namespace
 
 BatchPlan::BatchPlan(std::uint64_t cells, const RunSettings& run) {
+    const double jitter = jitter_of(run, cells);
     const double wanted =
-        run.rays > 0 ? static_cast<double>(run.rays) : run.jitter * static_cast<double>(cells);
+        run.rays > 0 ? static_cast<double>(run.rays) : jitter * static_cast<double>(cells);
     if (wanted > static_cast<double>(kMaxRaysPerLayer))
         throw Error(ErrorCode::Usage,
                     fmt::format("{} launch points per cell are {:.3g} rays a layer, more than {}",
-                                run.jitter, wanted, kMaxRaysPerLayer),
+                                jitter, wanted, kMaxRaysPerLayer),
                     "jitter");
     rays = std::max<std::uint64_t>(2, static_cast<std::uint64_t>(std::llround(wanted)));
     batches = std::min<std::uint64_t>(static_cast<std::uint64_t>(run.batches), rays);

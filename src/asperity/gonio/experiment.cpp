@@ -11,6 +11,8 @@ namespace asperity {
 
 namespace {
 
+constexpr double kJitter = 16;
+
 void require(bool holds, const char* setting, std::string message) {
     if (!holds) throw Error(ErrorCode::Usage, std::move(message), setting);
 }
@@ -38,7 +40,12 @@ void validate(const RunSettings& s) {
 
 double default_jitter(std::uint64_t cells) {
     constexpr double kEnoughRays = 1 << 26;
-    return std::clamp(kEnoughRays / static_cast<double>(cells), 1.0, RunSettings{}.jitter);
+    return std::clamp(kEnoughRays / static_cast<double>(cells), 1.0, kJitter);
+}
+
+double jitter_of(const RunSettings& run, std::uint64_t cells) {
+    if (run.jitter > 0) return run.jitter;
+    return run.rays > 0 ? kJitter : default_jitter(cells);
 }
 
 void validate(const Experiment& experiment) {

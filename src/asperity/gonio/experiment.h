@@ -13,8 +13,8 @@
 namespace asperity {
 
 struct RunSettings {
-    /// Camera Jitter J: launch points per surface cell and layer; see default_jitter().
-    double jitter = 16;
+    /// Camera Jitter J: launch points per surface cell and layer; 0: as jitter_of() says.
+    double jitter = 0;
     std::uint64_t rays = 0;      ///< per layer; 0: jitter x cells
     double until = 0;            ///< relative error of the albedo to reach, 0: none. See measure()
     double until_cells = 0;      ///< and of the cells; 0: the same as until
@@ -31,6 +31,11 @@ struct RunSettings {
 /// if all are alike. On more than 2^22 cells fewer, so that a layer has no more than 2^26 rays, or
 /// one a cell.
 double default_jitter(std::uint64_t cells);
+
+/// The launch points per cell of a run: its `jitter`, or where it names none default_jitter(), 16
+/// with a number of `rays` of its own. The one place that says so, for library, programs and
+/// studio: measure() and head_of() write it into the experiment of their results.
+double jitter_of(const RunSettings& run, std::uint64_t cells);
 
 /// One experiment: all that decides the numbers of a Measurement.
 struct Experiment {

@@ -130,6 +130,25 @@ ParamTable<DetectorSettings> detector_params() {
                       });
 }
 
+namespace {
+
+Param<RunSettings> max_rays_row() {
+    using S = RunSettings;
+    Param<S> row = field(&S::max_rays, {.name = "max-rays",
+                                        .range = kRays,
+                                        .absent = "auto",
+                                        .doc = "with --until: no more rays per layer than this",
+                                        .otherwise = "256 x the first estimate"});
+    row.unused = [](const S& s) {
+        return std::string(s.until > 0 ? ""
+                                       : "limits a run with --until, which is not given; the rays "
+                                         "of others are those of --jitter or --rays");
+    };
+    return row;
+}
+
+}  // namespace
+
 ParamTable<RunSettings> run_params() {
     using S = RunSettings;
     ParamTable<S> table = {
@@ -143,6 +162,7 @@ ParamTable<RunSettings> run_params() {
                            .label = "Camera Jitter",
                            .metavar = "J",
                            .range = {0, 1e9, true},
+                           .absent = "auto",
                            .doc = "rays per surface cell and layer (the thesis' Camera Jitter)",
                            .otherwise = "16, or fewer on more than 4 million cells"}),
         field(&S::rays, {.name = "rays",
@@ -151,11 +171,7 @@ ParamTable<RunSettings> run_params() {
                          .doc = "rays per layer, in place of --jitter",
                          .otherwise = "jitter x cells"}),
         until_row(),
-        field(&S::max_rays, {.name = "max-rays",
-                             .range = kRays,
-                             .absent = "auto",
-                             .doc = "with --until: no more rays per layer than this",
-                             .otherwise = "256 x the first estimate"}),
+        max_rays_row(),
         field(&S::batches,
               {.name = "batches",
                .range = {2, 4096},

@@ -99,6 +99,18 @@ std::vector<double> LayersInWork::theta_i() const {
     return angles;
 }
 
+void LayersInWork::plan(const MeasureScope& scope) {
+    if (scope.so_far) take(*scope.so_far);
+    share_out(scope.part, scope.parts, scope.leave_out_so_far);
+    if (scope.leave_out_so_far)
+        for (LayerInWork& layer : layers_) layer.leave_out();
+}
+
+void LayersInWork::add_notes(std::vector<std::string>& notes) const {
+    for (const LayerInWork& layer : layers_)
+        notes.insert(notes.end(), layer.notes.begin(), layer.notes.end());
+}
+
 void LayersInWork::take(const Measurement& so_far) {
     for (const Layer& layer : so_far.layers)
         for (LayerInWork& ours : layers_)

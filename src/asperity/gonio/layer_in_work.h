@@ -4,6 +4,7 @@
 #include <asperity/detector/illumination.h>
 #include <asperity/detector/layer_sums.h>
 #include <asperity/gonio/batch_plan.h>
+#include <asperity/gonio/measure.h>
 #include <asperity/gonio/measurement.h>
 #include <asperity/tracing/engine.h>
 
@@ -74,14 +75,18 @@ class LayersInWork {
     LayerInWork& operator[](std::size_t k) { return layers_[k]; }
     std::vector<double> theta_i() const;
 
-    /// Goes on from the layers of an earlier result.
-    void take(const Measurement& so_far);
-    /// Lists in each layer the batches of its round that are to be done: share number `part` of
-    /// `parts`, counted over all layers one after the other, over those that are missing alone if
-    /// so asked: then a share depends on what is done.
-    void share_out(int part, int parts, bool of_missing);
+    /// Goes on from the layers of an earlier result, if the scope has one, and lists in each layer
+    /// the batches of its round that are to be done.
+    void plan(const MeasureScope& scope);
+    /// What layers have to say to the reader of the result.
+    void add_notes(std::vector<std::string>& notes) const;
 
   private:
+    void take(const Measurement& so_far);
+    /// Share number `part` of `parts`, counted over all layers one after the other, over those that
+    /// are missing alone if so asked: then a share depends on what is done.
+    void share_out(int part, int parts, bool of_missing);
+
     const SumShape shape_;
     std::deque<LayerInWork> layers_;
 };

@@ -36,6 +36,11 @@ class LayerSchedule {
     void close();
     /// From now on there is nothing to do.
     void give_up();
+    /// Gives up at its end, so that nobody waits for a thread that has left, by whichever way.
+    struct Leave {
+        LayerSchedule& schedule;
+        ~Leave() { schedule.give_up(); }
+    };
 
   private:
     struct Layer {

@@ -6,7 +6,7 @@
 #include <asperity/core/error.h>
 #include <asperity/core/parallel.h>
 #include <asperity/gonio/batch_plan.h>
-#include <asperity/gonio/checkpoint_clock.h>
+#include <asperity/gonio/checkpoint.h>
 #include <asperity/gonio/layer_in_work.h>
 #include <asperity/gonio/layer_report.h>
 #include <asperity/gonio/layer_schedule.h>
@@ -15,7 +15,6 @@
 #include <asperity/gonio/memory_need.h>
 #include <asperity/tracing/engine.h>
 #include <asperity/tracing/scale.h>
-#include <fmt/format.h>
 
 #include <atomic>
 #include <memory>
@@ -56,25 +55,13 @@ class Gonioreflectometer {
   private:
     /// Decides which batches are to do.
     void plan(MeasureScope scope) {
-        head_.part = scope.part;
-        head_.parts = scope.parts;
-        if (scope.parts > 1)
-            head_.notes.push_back(
-                fmt::format("part {} of {}: a share of the rays, to be merged with the others",
-                            scope.part, scope.parts));
-        if (scope.so_far) {
-            require_same_experiment(*scope.so_far, head_, "result");
-            layers_.take(*scope.so_far);
-            head_.trace_seconds = scope.so_far->trace_seconds;
-        }
-        layers_.share_out(scope.part, scope.parts, scope.leave_out_so_far);
-        for (std::size_t k = 0; k < layers_.size(); ++k) {
-            if (scope.leave_out_so_far) layers_[k].leave_out();
+        note_scope(head_, scope);
+        layers_.plan(scope);
+        for (std::size_t k = 0; k < layers_.size(); ++k)
             if (layers_[k].to_do().empty())
                 complete(k);
             else
                 open_.push_back(k);
-        }
     }
 
     /// Looks at the surface and builds the engine; false when it was stopped.
@@ -112,11 +99,7 @@ class Gonioreflectometer {
 
     /// What each thread does until all layers are complete, or the run is stopped.
     void work(LayerSchedule& schedule) {
-        // Nobody waits for a thread that has left
-        struct Leave {
-            LayerSchedule& schedule;
-            ~Leave() { schedule.give_up(); }
-        } const leave{schedule};
+        const LayerSchedule::Leave leave{schedule};
         const auto worker = engine_->worker();
         BatchSums sums(shape_);
         while (run_.keep_going()) {
@@ -175,11 +158,8 @@ class Gonioreflectometer {
 
     /// The result; of a stopped run also what is there of the layers under way.
     Measurement finish() {
-        for (std::size_t k = 0; k < layers_.size(); ++k) {
-            complete(k);
-            const auto& notes = layers_[k].notes;
-            head_.notes.insert(head_.notes.end(), notes.begin(), notes.end());
-        }
+        for (std::size_t k = 0; k < layers_.size(); ++k) complete(k);
+        layers_.add_notes(head_.notes);
         head_.layers = report_.finish();
         head_.stopped = run_.stop_requested();
         if (head_.stopped) head_.notes.emplace_back("stopped before it was complete");
@@ -188,14 +168,8 @@ class Gonioreflectometer {
 
     /// Shows all that is done so far, while other threads go on.
     void checkpoint() {
-        Measurement so_far = head_;
-        so_far.stopped = true;
-        so_far.notes.emplace_back("a checkpoint: the run was not complete");
+        Measurement so_far = checkpoint_of(head_, layers_, report_);
         so_far.trace_seconds += run_.progress().seconds;
-        for (std::size_t k = 0; k < layers_.size(); ++k)
-            // A layer that is closed between both is seen by the second
-            if (Layer layer; layers_[k].write(layer, 1) || report_.copy(k, layer))
-                so_far.layers.push_back(std::move(layer));
         listener_.checkpoint(so_far);
     }
 
@@ -224,8 +198,7 @@ Measurement measure(const Heightfield& surface, const Experiment& experiment, Ru
     validate(experiment);
     require_memory_for(surface, experiment);
     validate(surface, surface.name);
-    if (scope.parts < 1 || scope.part < 1 || scope.part > scope.parts)
-        throw Error(ErrorCode::Usage, "a part is one of 1/N to N/N", "part");
+    check(scope);
     return Gonioreflectometer(surface, experiment, run, listener).measure(std::move(scope));
 }
 

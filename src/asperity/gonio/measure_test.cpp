@@ -28,7 +28,13 @@ TEST(Experiment, LargeSurfacesNeedFewerRaysPerCell) {
     EXPECT_EQ(default_jitter(square(2048)), 16);
     EXPECT_EQ(default_jitter(square(4096)), 4);
     EXPECT_EQ(default_jitter(square(32768)), 1);
-    EXPECT_EQ(RunSettings{}.jitter, default_jitter(square(512)));
+    // Where a run says its own, that counts; a number of rays leaves the thesis' figure.
+    RunSettings run;
+    EXPECT_EQ(jitter_of(run, square(4096)), 4);
+    run.rays = 1000;
+    EXPECT_EQ(jitter_of(run, square(4096)), 16);
+    run.jitter = 2;
+    EXPECT_EQ(jitter_of(run, square(4096)), 2);
 }
 
 TEST(Measure, SameBitsForAnyNumberOfThreads) {
@@ -318,7 +324,7 @@ TEST(Measure, RefusesSillySettings) {
     refused([](Experiment& e) { e.run.rays = 1; }, "rays");
     refused([](Experiment& e) { e.run.rays = ~0ULL; }, "rays");
     refused([&](Experiment& e) { e.run.jitter = nan; }, "jitter");
-    refused([](Experiment& e) { e.run.jitter = 0; }, "jitter");
+    refused([](Experiment& e) { e.run.jitter = -1; }, "jitter");
     refused(
         [](Experiment& e) {
             e.run.rays = 0;

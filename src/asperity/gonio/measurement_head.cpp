@@ -13,6 +13,7 @@ namespace asperity {
 Measurement head_of(const Heightfield& surface, const Experiment& experiment, const Run& run) {
     Measurement m;
     m.experiment = experiment;
+    m.experiment.run.jitter = jitter_of(experiment.run, surface.cell_count());
     m.detector = Detector(experiment.detector);
     m.channel_names = Fresnel(experiment.optics).channel_names();
     m.surface_name = surface.name;
@@ -38,6 +39,23 @@ Measurement head_of(const Heightfield& surface, const Experiment& experiment, co
             "facets average both polarisations: what a dielectric reflects twice may be up to 41 % "
             "too dark");
     return m;
+}
+
+void check(const MeasureScope& scope) {
+    if (scope.parts < 1 || scope.part < 1 || scope.part > scope.parts)
+        throw Error(ErrorCode::Usage, "a part is one of 1/N to N/N", "part");
+}
+
+void note_scope(Measurement& head, const MeasureScope& scope) {
+    head.part = scope.part;
+    head.parts = scope.parts;
+    if (scope.parts > 1)
+        head.notes.push_back(
+            fmt::format("part {} of {}: a share of the rays, to be merged with the others",
+                        scope.part, scope.parts));
+    if (!scope.so_far) return;
+    require_same_experiment(*scope.so_far, head, "result");
+    head.trace_seconds = scope.so_far->trace_seconds;
 }
 
 void require_same_experiment(const Measurement& so_far, const Measurement& head,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <asperity/core/run.h>
+#include <asperity/gonio/measure.h>
 #include <asperity/gonio/measurement.h>
 #include <asperity/surface/heightfield.h>
 
@@ -9,6 +10,13 @@ namespace asperity {
 
 /// All of a Measurement but its layers and the surface's statistics.
 Measurement head_of(const Heightfield& surface, const Experiment& experiment, const Run& run);
+
+/// Throws Error(Usage, "part") for a part that is none of 1/N to N/N.
+void check(const MeasureScope& scope);
+
+/// Which part it is of, and what of an earlier result goes into it. Throws as
+/// require_same_experiment for a result of another experiment.
+void note_scope(Measurement& head, const MeasureScope& scope);
 
 /// Refuses to go on from `so_far` with this experiment, or to add the layers of both. `until` and
 /// `max_rays` may differ: they decide how many batches there are, not what is in one. Throws

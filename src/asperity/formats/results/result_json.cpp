@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/formats/results/result_fields.h>
+#include <asperity/surface/surface_figures.h>
 #include <nlohmann/json.hpp>
 
-#include <array>
 #include <limits>
 #include <utility>
 
@@ -10,28 +10,6 @@ namespace asperity::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::array<std::pair<const char*, double SurfaceStatistics::*>, 17> kStatistics = {{
-    {"mean_height", &SurfaceStatistics::mean_height},
-    {"min_height", &SurfaceStatistics::min_height},
-    {"max_height", &SurfaceStatistics::max_height},
-    {"rms_height", &SurfaceStatistics::rms_height},
-    {"skewness", &SurfaceStatistics::skewness},
-    {"kurtosis", &SurfaceStatistics::kurtosis},
-    {"mean_slope_x", &SurfaceStatistics::mean_slope_x},
-    {"mean_slope_y", &SurfaceStatistics::mean_slope_y},
-    {"rms_slope_x", &SurfaceStatistics::rms_slope_x},
-    {"rms_slope_y", &SurfaceStatistics::rms_slope_y},
-    {"rms_gradient", &SurfaceStatistics::rms_gradient},
-    {"alpha_x", &SurfaceStatistics::alpha_x},
-    {"alpha_y", &SurfaceStatistics::alpha_y},
-    {"slope_correlation", &SurfaceStatistics::slope_correlation},
-    {"mean_tilt_deg", &SurfaceStatistics::mean_tilt_deg},
-    {"max_tilt_deg", &SurfaceStatistics::max_tilt_deg},
-    {"area_ratio", &SurfaceStatistics::area_ratio},
-}};
-static_assert(sizeof(SurfaceStatistics) == kStatistics.size() * sizeof(double),
-              "a figure of the surface is missing from the list");
 
 // Doubles come out in the shortest form that reads back to the same bits; a name that is not UTF-8
 // must not keep a result from being saved.
@@ -56,7 +34,7 @@ void read_channel_names_json(const std::string& text, Measurement& m) {
 
 std::string surface_json(const Measurement& m) {
     Json figures = Json::object();
-    for (const auto& [name, member] : kStatistics) figures[name] = m.surface.*member;
+    for (const auto& [name, member] : surface_figures()) figures[name] = m.surface.*member;
     return text_of({{"name", m.surface_name},
                     {"nx", m.surface_nx},
                     {"ny", m.surface_ny},
@@ -74,7 +52,7 @@ void read_surface_json(const std::string& text, Measurement& m) {
     m.surface_dx = number_or_nan(json.at("dx"));
     m.surface_dy = number_or_nan(json.at("dy"));
     json.at("isotropic").get_to(m.surface_isotropic);
-    for (const auto& [name, member] : kStatistics)
+    for (const auto& [name, member] : surface_figures())
         m.surface.*member = number_or_nan(json.at("statistics").at(name));
 }
 
