@@ -60,7 +60,7 @@ void BlackBoxModelTest::brdf_type() {
     show_model();
     auto& metallic = window().control<QWidget>("metallic");
     auto& factor = window().control<QWidget>("normalize-factor");
-    window().choose("brdf-type", "Cook Torrance");
+    window().choose("brdf-type", "Cook-Torrance");
     QVERIFY(metallic.isVisible() && !factor.isVisible());
     window().choose("brdf-type", "Simulated");
     QVERIFY(!metallic.isVisible() && factor.isVisible());
@@ -68,7 +68,7 @@ void BlackBoxModelTest::brdf_type() {
 
 void BlackBoxModelTest::cook_torrance_brdf() {
     show_model();
-    window().choose("brdf-type", "Cook Torrance");
+    window().choose("brdf-type", "Cook-Torrance");
     window().click("start-brdf");
     window().type("roughness", 0.2);
     window().type("metallic", 1);

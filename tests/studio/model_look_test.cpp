@@ -147,7 +147,9 @@ void ModelLookTest::diffuse_albedo_adds_its_colour() {
 void ModelLookTest::both_sides_of_the_split_are_the_whole_pictures() {
     Bench bench;
     bench.begin();
-    const BrdfSettings dull{BrdfType::CookTorrance, 0, 0.9, {0.2, 0.4, 0.8}};
+    BrdfSettings dull;
+    dull.settings["cook-torrance"] = {
+        {"roughness", "0.9"}, {"metallic", "0"}, {"albedo", "0.2/0.4/0.8"}};
     const Film left = paint(bench.scene);
     const BrdfSettings shiny = bench.workbench.settings().model_view.brdf;
     bench.change([&](ModelView& view) { view.brdf = dull; });

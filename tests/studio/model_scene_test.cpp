@@ -243,7 +243,7 @@ void ModelSceneTest::the_split_line_moves_by_mouse_and_keys() {
     QVERIFY(handle != nullptr && !handle->isVisible());
     bench.change([](ModelView& view) {
         view.compare = true;
-        view.second.type = BrdfType::CookTorrance;
+        view.second.type = BrdfType::Model;
     });
     QVERIFY(handle->isVisible());
     const QPoint middle = handle->rect().center();

@@ -171,8 +171,7 @@ void PlotsPanelTest::csv_holds_the_librarys_numbers() {
 
 void PlotsPanelTest::albedo_csv_adds_up() {
     show_kind(PlotKind::Albedo);
-    bench_.document().change("models",
-                             [](StudioSettings& s) { s.plots.cook_torrance.shown = false; });
+    bench_.document().change("models", [](StudioSettings& s) { s.plots.overlays.clear(); });
     QTest::qWait(250);
     const auto rows = rows_of_csv(saved("albedo.csv"));
     QCOMPARE(rows.size(), qsizetype(4));  // three layers
@@ -356,7 +355,7 @@ void PlotsPanelTest::models_follow_the_surface_or_the_slider() {
     follow->setChecked(false);
     QVERIFY(alpha->isEnabled());
     slider->setValue(slider->maximum() / 4);
-    QCOMPARE(bench_.settings().plots.ggx.alpha, 0.5);
+    QCOMPARE(bench_.settings().plots.overlay("ggx").alpha, 0.5);
     QTRY_VERIFY_WITH_TIMEOUT(!model_column(0.5).isEmpty(), 10000);
 
     MicrofacetSettings settings;

@@ -11,6 +11,8 @@
 #include "view/theme.h"
 #include "view/tour.h"
 
+#include <asperity/bsdf/bsdf_models.h>
+
 #include <QDir>
 #include <QDockWidget>
 
@@ -187,23 +189,20 @@ void ScreenshotsTest::figure_2_13() {
 void ScreenshotsTest::figures_2_17_to_2_19() {
     open();
     show_model();
-    edit([](StudioSettings& s) {
-        s.model_view.brdf_runs = true;
-        s.model_view.brdf.metallic = 0;
-    });
-    const auto look = [this](const char* name, const std::function<void(BrdfSettings&)>& change) {
-        edit([&change](StudioSettings& s) { change(s.model_view.brdf); });
+    edit([](StudioSettings& s) { s.model_view.brdf_runs = true; });
+    const auto look = [this](const char* name, SpecSettings settings) {
+        edit([&](StudioSettings& s) {
+            s.model_view.brdf.settings["cook-torrance"] = std::move(settings);
+        });
         QVERIFY(window().picture_comes());
         shoot(name, &window().model_scene());
     };
-    look("figure-2-17a-not-metallic", [](BrdfSettings& b) { b.metallic = 0; });
-    look("figure-2-17b-metallic", [](BrdfSettings& b) { b.metallic = 1; });
-    look("figure-2-18a-smooth", [](BrdfSettings& b) { b.roughness = 0.2; });
-    look("figure-2-18b-rough", [](BrdfSettings& b) { b.roughness = 0.7; });
-    look("figure-2-19-colour", [](BrdfSettings& b) {
-        b.metallic = 0;
-        b.albedo = {0.9, 0.25, 0.2};
-    });
+    look("figure-2-17a-not-metallic", {{"roughness", "0.4"}, {"metallic", "0"}});
+    look("figure-2-17b-metallic", {{"roughness", "0.4"}});
+    look("figure-2-18a-smooth", {{"roughness", "0.2"}});
+    look("figure-2-18b-rough", {{"roughness", "0.7"}});
+    look("figure-2-19-colour",
+         {{"roughness", "0.7"}, {"metallic", "0"}, {"albedo", "0.9/0.25/0.2"}});
 }
 
 void ScreenshotsTest::figures_2_20_and_2_21() {
@@ -227,12 +226,12 @@ void ScreenshotsTest::figures_2_20_and_2_21() {
     edit([](StudioSettings& s) {
         s.model_view.brdf_runs = true;
         s.model_view.brdf.type = BrdfType::Simulated;
-        s.model_view.brdf.roughness = 0.447;
+        s.model_view.brdf.settings["cook-torrance"] = {{"roughness", "0.447"}};
     });
     QTest::qWait(1500);  // the layers are made a material in the background
     QVERIFY(window().picture_comes());
     shoot("figure-2-21-simulated");
-    edit([](StudioSettings& s) { s.model_view.brdf.type = BrdfType::CookTorrance; });
+    edit([](StudioSettings& s) { s.model_view.brdf.type = BrdfType::Model; });
     QVERIFY(window().picture_comes());
     shoot("figure-2-21-cook-torrance");
     edit([](StudioSettings& s) {
@@ -267,7 +266,7 @@ void ScreenshotsTest::plots() {
         s.experiment.surface.kind = "gaussian";
         s.experiment.surface.size = 256;
         s.surface_view.current_layer = 9;
-        s.plots.ggx.shown = s.plots.beckmann.shown = true;
+        s.plots.overlays["ggx"].shown = s.plots.overlays["beckmann"].shown = true;
     });
     QVERIFY(window().surface_comes());
     draw();

@@ -21,10 +21,28 @@ namespace {
 std::string another_value(const Param<StudioSettings>& key) {
     const StudioSettings defaults;
     const std::string usual = key.text(defaults);
-    for (const char* text :
-         {"true", "false", "0.125", "3", "0.25,0.5,0.75", "model", "first-person", "lit", "viridis",
-          "log", "linear", "disk", "simulated", "cook-torrance", "sky", "aces", "srgb", "albedo",
-          "a \"quoted\" name # no comment.asperity"}) {
+    for (const char* text : {"true",
+                             "false",
+                             "0.125",
+                             "3",
+                             "0.25,0.5,0.75",
+                             "model",
+                             "first-person",
+                             "lit",
+                             "viridis",
+                             "log",
+                             "linear",
+                             "disk",
+                             "simulated",
+                             "cook-torrance",
+                             "student-t",
+                             "student-t=0.5",
+                             "lambert:albedo=0.5",
+                             "sky",
+                             "aces",
+                             "srgb",
+                             "albedo",
+                             "a \"quoted\" name # no comment.asperity"}) {
         StudioSettings settings;
         try {
             key.apply(settings, text);

@@ -117,7 +117,7 @@ void measure_model(Workbench& bench, const QString& model) {
           [](StudioSettings& s) { s.model_view.brdf.type = BrdfType::Simulated; });
     after("model, split", [](StudioSettings& s) {
         s.model_view.compare = true;
-        s.model_view.second.type = BrdfType::CookTorrance;
+        s.model_view.second.type = BrdfType::Model;
     });
     after("model, split, under the sky",
           [](StudioSettings& s) { s.model_view.light = LightKind::Sky; });

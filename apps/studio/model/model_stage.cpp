@@ -21,7 +21,7 @@ constexpr int kTellEveryMs = 100;
 constexpr qint64 kMovementMs = 250;
 
 auto fields(const BrdfSettings& s) {
-    return std::tie(s.type, s.metallic, s.roughness, s.albedo, s.normalize_factor, s.diffuse);
+    return std::tie(s.type, s.model, s.settings, s.normalize_factor, s.diffuse);
 }
 
 /// All that decides the picture but the camera.

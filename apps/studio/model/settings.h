@@ -7,7 +7,12 @@
 #include <asperity/render/rgb.h>
 #include <asperity/render/tonemap.h>
 
+#include <functional>
+#include <map>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace asperity::studio {
 
@@ -35,15 +40,20 @@ struct SurfaceView {
     io::SkyMapSettings sky_map{io::ColourMap::ThesisRed, io::Scale::Linear};  ///< of the dome
 };
 
+/// What was set of the parameters of analytic models (bsdf/bsdf_models.h), by the model's name;
+/// model_settings.h has what reads and writes it.
+using ModelSettings =
+    std::map<std::string, std::vector<std::pair<std::string, std::string>>, std::less<>>;
+
 /// BRDF Type (thesis 2.3.1) and its fields.
-enum class BrdfType { CookTorrance, Simulated };
+enum class BrdfType { Model, Simulated };
 
 struct BrdfSettings {
-    BrdfType type = BrdfType::CookTorrance;
-    double metallic = 1, roughness = 0.4;  ///< Cook Torrance, 0 .. 1
-    Rgb albedo{1, 1, 1};                   ///< Cook Torrance, each 0 .. 1
-    double normalize_factor = 1;           ///< Simulated, >= 0
-    Rgb diffuse{0, 0, 0};                  ///< Simulated: its Albedo, each 0 .. 1
+    BrdfType type = BrdfType::Model;
+    std::string model = "cook-torrance";  ///< Model: a name in bsdf_models()
+    ModelSettings settings = {{"cook-torrance", {{"roughness", "0.4"}}}};  ///< of all models
+    double normalize_factor = 1;                                           ///< Simulated, >= 0
+    Rgb diffuse{0, 0, 0};  ///< Simulated: its Albedo, each 0 .. 1
 };
 
 enum class LightKind { Point, Sky, Environment };
@@ -76,7 +86,8 @@ enum class PlotKind { LobePolar, LobeCartesian, Hemisphere, Albedo, Normals };
 /// An analytic model drawn beside the simulated one.
 struct Overlay {
     bool shown = false;
-    double alpha = 0.3;  ///< width of its slope distribution; Cook-Torrance: roughness^2
+    double alpha = 0.3;  ///< width of its slope distribution, if the model has one
+    bool operator==(const Overlay&) const = default;
 };
 
 struct PlotView {
@@ -84,7 +95,14 @@ struct PlotView {
     io::Scale scale = io::Scale::Linear;
     bool error_band = true;
     bool follow_surface = true;  ///< overlays take the alpha of the surface
-    Overlay cook_torrance{true}, ggx, beckmann;
+    std::map<std::string, Overlay, std::less<>> overlays = {{"cook-torrance", {true}}};
+    ModelSettings overlay_settings;  ///< but for the widths
+
+    /// That of a model in bsdf_models().
+    Overlay overlay(std::string_view model) const {
+        const auto found = overlays.find(model);
+        return found != overlays.end() ? found->second : Overlay{};
+    }
 };
 
 /// All that a session is made of and undo can bring back. Cameras are no settings.

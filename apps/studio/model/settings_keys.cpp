@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "settings_keys.h"
 
+#include "model_keys.h"
+
 #include <asperity/core/parse_number.h>
 #include <asperity/gonio/experiment_params.h>
 
-#include <array>
+#include <string>
 #include <vector>
 
 namespace asperity::studio {
@@ -39,10 +41,6 @@ constexpr Names<io::Projection, 2> kProjections = {{
     {"sky-map", io::Projection::SkyMap},
     {"disk", io::Projection::Disk},
 }};
-constexpr Names<BrdfType, 2> kBrdfTypes = {{
-    {"cook-torrance", BrdfType::CookTorrance},
-    {"simulated", BrdfType::Simulated},
-}};
 constexpr Names<LightKind, 3> kLights = {{
     {"point", LightKind::Point},
     {"sky", LightKind::Sky},
@@ -68,7 +66,7 @@ constexpr Names<PlotKind, 5> kPlots = {{
 
 constexpr double kMostLayers = 9000, kMostPaths = 100000, kMostChannels = 4096, kDeepest = 1000;
 constexpr Range kExposureRange = {-100, 100}, kDecadesRange = {0.01, 30};
-constexpr Range kElevationRange = {-90, 90}, kTurnRange = {-360, 360}, kAlphaRange = {1e-4, 100};
+constexpr Range kElevationRange = {-90, 90}, kTurnRange = {-360, 360};
 
 /// The way from the settings to one field: at(&S::plots, &PlotView::kind)(settings).
 template <typename... Steps>
@@ -85,7 +83,7 @@ class Group {
 
     /// A number, a flag, or the name of a file or a model, kept to the letter.
     template <typename Field>
-    void value(const char* name, Field field, const Range& range = {}) {
+    void value(const std::string& name, Field field, const Range& range = {}) {
         table_.push_back(field_at<S>(field, {.name = name, .group = heading_, .range = range}));
     }
     template <typename Field, typename Enum, std::size_t N>
@@ -93,7 +91,7 @@ class Group {
         table_.push_back(field_at<S>(field, names, {.name = name, .group = heading_}));
     }
     template <typename Field>
-    void colour(const char* name, Field field) {
+    void colour(const std::string& name, Field field) {
         three(
             name, kZeroToOne,
             [field](S& s, const std::vector<double>& c) {
@@ -119,7 +117,7 @@ class Group {
 
   private:
     template <typename Set, typename Get>
-    void three(const char* name, const Range& range, Set set, Get get) {
+    void three(const std::string& name, const Range& range, Set set, Get get) {
         Param<S> row;
         row.info = {.name = name, .group = heading_, .range = range, .type = ParamType::List};
         row.get = get;
@@ -178,17 +176,18 @@ void add_model_scene(ParamTable<S>& keys) {
     group.value("brdf-runs", of(&ModelView::brdf_runs));
 }
 
-/// `names` in the order of the fields, for the left and the right side of the comparison.
-void add_brdf(ParamTable<S>& keys, const char* heading, BrdfSettings ModelView::*side,
-              const std::array<const char*, 6>& names) {
+void append(ParamTable<S>& keys, const ParamTable<S>& more) {
+    keys.insert(keys.end(), more.begin(), more.end());
+}
+
+/// Of the left or the right side of the comparison.
+void add_brdf(ParamTable<S>& keys, const char* heading, const std::string& prefix,
+              BrdfSettings ModelView::*side) {
+    append(keys, brdf_model_keys(heading, prefix, side));
     Group group(keys, heading);
     const auto of = [side](auto step) { return at(&S::model_view, side, step); };
-    group.choice(names[0], of(&BrdfSettings::type), kBrdfTypes);
-    group.value(names[1], of(&BrdfSettings::metallic), kZeroToOne);
-    group.value(names[2], of(&BrdfSettings::roughness), kZeroToOne);
-    group.colour(names[3], of(&BrdfSettings::albedo));
-    group.value(names[4], of(&BrdfSettings::normalize_factor), kNotNegative);
-    group.colour(names[5], of(&BrdfSettings::diffuse));
+    group.value(prefix + "normalize-factor", of(&BrdfSettings::normalize_factor), kNotNegative);
+    group.colour(prefix + "diffuse", of(&BrdfSettings::diffuse));
 }
 
 void add_plots(ParamTable<S>& keys) {
@@ -198,12 +197,7 @@ void add_plots(ParamTable<S>& keys) {
     group.choice("plot-scale", of(&PlotView::scale), kScales);
     group.value("error-band", of(&PlotView::error_band));
     group.value("follow-surface", of(&PlotView::follow_surface));
-    group.value("plot-cook-torrance", of(&PlotView::cook_torrance, &Overlay::shown));
-    group.value("cook-torrance-alpha", of(&PlotView::cook_torrance, &Overlay::alpha), kAlphaRange);
-    group.value("plot-ggx", of(&PlotView::ggx, &Overlay::shown));
-    group.value("ggx-alpha", of(&PlotView::ggx, &Overlay::alpha), kAlphaRange);
-    group.value("plot-beckmann", of(&PlotView::beckmann, &Overlay::shown));
-    group.value("beckmann-alpha", of(&PlotView::beckmann, &Overlay::alpha), kAlphaRange);
+    append(keys, overlay_keys("Plots"));
 }
 
 ParamTable<S> make_table() {
@@ -211,12 +205,8 @@ ParamTable<S> make_table() {
     Group(keys, "Window").choice("scene", at(&S::scene), kScenes);
     add_surface_scene(keys);
     add_model_scene(keys);
-    add_brdf(keys, "BRDF", &ModelView::brdf,
-             {"brdf-type", "brdf-metallic", "brdf-roughness", "brdf-albedo",
-              "brdf-normalize-factor", "brdf-diffuse"});
-    add_brdf(keys, "The second BRDF of a comparison", &ModelView::second,
-             {"second-type", "second-metallic", "second-roughness", "second-albedo",
-              "second-normalize-factor", "second-diffuse"});
+    add_brdf(keys, "BRDF", "brdf-", &ModelView::brdf);
+    add_brdf(keys, "The second BRDF of a comparison", "second-", &ModelView::second);
     add_plots(keys);
     return keys;
 }

@@ -60,6 +60,11 @@ std::shared_ptr<const Heightfield> SurfaceSource::surface() const {
     return work_->made().surface;
 }
 
+std::uint64_t SurfaceSource::cells() const {
+    const auto made = surface();
+    return made != nullptr ? made->cell_count() : 1;
+}
+
 const SurfaceStatistics& SurfaceSource::statistics() const {
     return work_->made().statistics;
 }

@@ -8,6 +8,7 @@
 #include <QObject>
 #include <QString>
 
+#include <cstdint>
 #include <memory>
 
 namespace asperity::studio {
@@ -27,6 +28,7 @@ class SurfaceSource : public QObject {
     bool busy() const;
     /// Null before the first is ready. Never changes: a new one is another object.
     std::shared_ptr<const Heightfield> surface() const;
+    std::uint64_t cells() const;                  ///< of surface(); 1 before the first is ready
     const SurfaceStatistics& statistics() const;  ///< of surface()
     const SurfaceSettings& settings() const;      ///< surface() was made from these
 

@@ -62,7 +62,10 @@ void Workbench::stop_drawing() {
 
 bool Workbench::are_layers_current() const {
     const auto& head = drawing_.layers().head;
-    return head && same_experiment(head->experiment, settings().experiment);
+    if (!head) return false;
+    Experiment wanted = settings().experiment;
+    wanted.run.jitter = jitter_of(wanted.run, head->surface_cells);
+    return same_experiment(head->experiment, wanted);
 }
 
 bool Workbench::is_drawing() const {

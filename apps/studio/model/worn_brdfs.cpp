@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "worn_brdfs.h"
 
-#include <asperity/bsdf/models/cook_torrance.h>
+#include "model_settings.h"
+
+#include <asperity/bsdf/spec.h>
 #include <asperity/core/error.h>
+#include <asperity/formats/bsdfs/bsdf_format.h>
 #include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/experiment_text.h>
 #include <asperity/measured/baked_brdf.h>
@@ -20,6 +23,8 @@ namespace {
 
 /// So many results are kept ready: one may go to and fro between them.
 constexpr std::size_t kKept = 4;
+/// So many analytic ones, which are made in a moment.
+constexpr std::size_t kModelsKept = 8;
 
 double in_unit_interval(double value) {
     return std::clamp(value, 0.0, 1.0);
@@ -29,28 +34,31 @@ Rgb in_unit_interval(Rgb c) {
     return {in_unit_interval(c.r), in_unit_interval(c.g), in_unit_interval(c.b)};
 }
 
-Material cook_torrance(const BrdfSettings& worn) {
-    constexpr double kLeastRoughness = 0.01;  // at 0 the thesis' D is 0 / 0
-    const Rgb albedo = in_unit_interval(worn.albedo);
-    CookTorranceSettings settings;
-    settings.roughness = std::max(kLeastRoughness, in_unit_interval(worn.roughness));
-    settings.metallic = in_unit_interval(worn.metallic);
-    settings.albedo = {albedo.r, albedo.g, albedo.b};
-    return Material(std::make_shared<CookTorranceBrdf>(settings));
-}
-
 bool wears_simulated(const ModelView& view) {
     return view.brdf.type == BrdfType::Simulated ||
            (view.compare && view.second.type == BrdfType::Simulated);
 }
 
+/// "GGX, alpha 0.3, material Au": what a specification must give, and what was set.
+QString model_description(const BrdfSettings& settings) {
+    const auto model = find_bsdf_model(settings.model);
+    if (!model) return QString::fromStdString(settings.model);
+    QString line = QString::fromStdString(model->label);
+    for (const BsdfParam& param : model->params) {
+        const std::string text = model_setting(settings.settings, *model, param);
+        if (param.required || text != param.otherwise)
+            line += QString::fromStdString(fmt::format(", {} {}", param.info.name, text));
+    }
+    return line;
+}
+
 /// Throws what the command line throws for a result that cannot be shown in colours.
-void expect_colours(const Measurement& m, const std::string& where) {
-    if (m.channels() == 1 || m.channels() == 3) return;
+void expect_colours(int channels, const std::string& where) {
+    if (channels == 1 || channels == 3) return;
     throw Error(ErrorCode::InvalidInput,
                 fmt::format("has {} channels, a picture needs 1 (grey) or 3 (red, green, blue): "
                             "measure with --wavelengths 650,550,450",
-                            m.channels()),
+                            channels),
                 where);
 }
 
@@ -110,12 +118,19 @@ void WornBrdfs::want(const Source& source) {
 }
 
 WornBrdfs::Simulated WornBrdfs::simulate(const Source& source, Run& run) {
+    const io::BsdfFormats formats;
+    if (source.drawn == nullptr && formats.can_read(source.file)) {
+        const std::unique_ptr<Bsdf> file = formats.read(source.file);
+        expect_colours(file->channels(), source.file);
+        const QString name = QFileInfo(QString::fromStdString(source.file)).fileName();
+        return {source, bake_brdf(*file, run), name, {}};
+    }
     const auto measurement =
         source.drawn != nullptr
             ? source.drawn
             : std::make_shared<const Measurement>(io::load_measurement(source.file));
     const std::string where = source.drawn != nullptr ? "the result drawn" : source.file;
-    expect_colours(*measurement, where);
+    expect_colours(measurement->channels(), where);
     if (run.stop_requested()) throw Error(ErrorCode::Stopped, "stopped");
     const auto table = make_tabulated_brdf(*measurement, run);
     return {source,
@@ -144,8 +159,29 @@ QString WornBrdfs::nothing_drawn() const {
 }
 
 QString WornBrdfs::trouble() const {
+    for (const BrdfSettings* side : {&view_.brdf, &view_.second}) {
+        if (!view_.brdf_runs || (side == &view_.second && !view_.compare)) continue;
+        if (side->type == BrdfType::Model && !analytic(*side).why.isEmpty())
+            return analytic(*side).why;
+    }
     const bool nothing = wanted_ && wanted_->drawn == nullptr && wanted_->file.empty();
     return nothing ? nothing_drawn() : trouble_;
+}
+
+const WornBrdfs::Analytic& WornBrdfs::analytic(const BrdfSettings& settings) const {
+    const auto model = find_bsdf_model(settings.model);
+    const std::string spec = model ? model_spec(settings.settings, *model) : settings.model;
+    const auto known = std::find_if(analytic_.begin(), analytic_.end(),
+                                    [&](const Analytic& a) { return a.spec == spec; });
+    if (known != analytic_.end()) return *known;
+    Analytic made{spec, std::nullopt, {}};
+    try {
+        made.material = Material(parse_brdf_spec(spec));
+    } catch (const std::exception& error) {  // models of others may throw what they like
+        made.why = QString::fromUtf8(error.what());
+    }
+    if (analytic_.size() >= kModelsKept) analytic_.pop_front();
+    return analytic_.emplace_back(std::move(made));
 }
 
 const WornBrdfs::Simulated* WornBrdfs::worn() const {
@@ -154,7 +190,7 @@ const WornBrdfs::Simulated* WornBrdfs::worn() const {
 }
 
 std::optional<Material> WornBrdfs::material(const BrdfSettings& settings) const {
-    if (settings.type == BrdfType::CookTorrance) return cook_torrance(settings);
+    if (settings.type == BrdfType::Model) return analytic(settings).material;
     const Simulated* simulated = worn();
     if (simulated == nullptr) return std::nullopt;
     return Material(simulated->brdf,
@@ -162,11 +198,7 @@ std::optional<Material> WornBrdfs::material(const BrdfSettings& settings) const 
 }
 
 QString WornBrdfs::description(const BrdfSettings& settings) const {
-    if (settings.type == BrdfType::CookTorrance) {
-        return tr("Cook Torrance, metallic %1, roughness %2")
-            .arg(settings.metallic)
-            .arg(settings.roughness);
-    }
+    if (settings.type == BrdfType::Model) return model_description(settings);
     const Simulated* simulated = worn();
     const QString surface = simulated != nullptr ? simulated->surface : QString();
     return surface.isEmpty() ? tr("Simulated") : tr("Simulated, %1").arg(surface);

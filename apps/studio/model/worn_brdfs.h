@@ -11,6 +11,7 @@
 #include <QDateTime>
 #include <QObject>
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,9 +19,10 @@
 
 namespace asperity::studio {
 
-/// From the BRDF Settings to what a model wears. Cook-Torrance is there at once; a simulated BRDF
-/// is made from the layers drawn, or from a result file, by a thread of its own, once for each
-/// result: a change of Normalize Factor or Albedo finds it ready.
+/// From the BRDF Settings to what a model wears. Analytic models are there at once; a simulated
+/// BRDF is made from the layers drawn, or from a file (a result, or a BRDF in a format of
+/// formats/bsdfs), by a thread of its own, once for each: a change of Normalize Factor or Albedo
+/// finds it ready.
 class WornBrdfs : public QObject {
     Q_OBJECT
 
@@ -30,17 +32,17 @@ class WornBrdfs : public QObject {
     /// Sees to it that all a view wears is there or on its way; `changed` or `failed` follows.
     void wear(const ModelView& view);
 
-    /// None as long as the simulated BRDF is not ready, see trouble() and busy(). Settings outside
-    /// their ranges are taken at their ends.
+    /// None as long as the simulated BRDF is not ready or the model cannot be made, see trouble()
+    /// and busy(). Settings of a simulated BRDF outside their ranges are taken at their ends.
     std::optional<Material> material(const BrdfSettings& settings) const;
-    /// A line for the user: "Cook Torrance, metallic 1, roughness 0.4".
+    /// A line for the user: "Cook-Torrance, roughness 0.4".
     QString description(const BrdfSettings& settings) const;
     /// The simulated BRDF's experiment, for pictures that show it.
     io::Provenance origin() const;
 
     bool busy() const { return background_.busy(); }
     Progress progress() const { return run_ != nullptr ? run_->progress() : Progress{}; }
-    /// Why there is no simulated BRDF though one is wanted; empty when there is, or soon will be.
+    /// Why there is no BRDF though one is wanted; empty when there is, or soon will be.
     QString trouble() const;
 
   signals:
@@ -62,12 +64,19 @@ class WornBrdfs : public QObject {
         QString surface;
         io::Provenance origin;
     };
+    /// An analytic BRDF, or why there is none.
+    struct Analytic {
+        std::string spec;
+        std::optional<Material> material;
+        QString why;
+    };
     static Simulated simulate(const Source& source, Run& run);
     void want(const Source& source);
     void take(const Simulated& made);
     void give_up(const QString& sentence);
     QString nothing_drawn() const;
     const Simulated* worn() const;
+    const Analytic& analytic(const BrdfSettings& settings) const;
 
     Drawing& drawing_;
     Background background_;
@@ -76,6 +85,7 @@ class WornBrdfs : public QObject {
     std::optional<Source> wanted_;
     std::vector<Simulated> made_;  ///< the latest first
     QString trouble_;
+    mutable std::deque<Analytic> analytic_;  ///< the latest last
 };
 
 }  // namespace asperity::studio

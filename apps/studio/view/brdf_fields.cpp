@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "brdf_fields.h"
 
+#include "model_form.h"
 #include "rows.h"
 
 #include <QComboBox>
+#include <QVBoxLayout>
+
+#include <algorithm>
 
 namespace asperity::studio {
 
@@ -14,62 +18,83 @@ BrdfFields::BrdfFields(Document& document, Bindings& bindings, Which which, cons
       bindings_(bindings),
       which_(which),
       prefix_(prefix),
-      side_(side) {
+      side_(side),
+      place_(new QWidget) {
     auto* form = new_rows(this);
     add_type(*form);
-    QWidget* const cook_torrance = cook_torrance_fields();
+    auto* column = new QVBoxLayout(place_);
+    column->setContentsMargins(0, 0, 0, 0);
     QWidget* const simulated = simulated_fields();
-    form->addRow(cook_torrance);
+    form->addRow(place_);
     form->addRow(simulated);
-    bindings_.follow([this, cook_torrance, simulated](const StudioSettings& settings) {
-        const BrdfType type = (settings.model_view.*which_).type;
-        cook_torrance->setVisible(type == BrdfType::CookTorrance);
-        simulated->setVisible(type == BrdfType::Simulated);
+    bindings_.follow([this, simulated](const StudioSettings& settings) {
+        const BrdfSettings& brdf = settings.model_view.*which_;
+        show_model(brdf.model);
+        place_->setVisible(brdf.type == BrdfType::Model);
+        simulated->setVisible(brdf.type == BrdfType::Simulated);
     });
 }
 
 void BrdfFields::add_type(QFormLayout& form) {
     auto* type = new QComboBox;
     type->setObjectName(prefix_ + "brdf-type");
-    type->addItems({tr("Cook Torrance"), tr("Simulated")});  // in the order of BrdfType
+    QString models;
+    for (const BsdfModel& model : bsdf_models()) {
+        models_.push_back(model.name);
+        const QString name = QString::fromStdString(model.label.empty() ? model.name : model.label);
+        type->addItem(name);
+        type->setItemData(type->count() - 1, QString::fromStdString(model.doc), Qt::ToolTipRole);
+        models += "\n" + name + ": " + QString::fromStdString(model.doc);
+    }
+    type->addItem(tr("Simulated"));
     add_row(form, tr("BRDF Type"), type,
-            tr("What the model wears: the analytic model of thesis eq. 4.2 and 4.4, or the layers "
-               "that were drawn or read from a result"));
+            tr("What the model wears: an analytic model, or the layers that were drawn or a file "
+               "that was opened") +
+                models);
     const Which which = which_;
     bindings_.bind(
         type, tr("BRDF Type") + side_,
-        [which](const StudioSettings& s) { return static_cast<int>((s.model_view.*which).type); },
-        [which](StudioSettings& s, int index) {
-            (s.model_view.*which).type = static_cast<BrdfType>(index);
+        [which, models = models_](const StudioSettings& s) {
+            const BrdfSettings& brdf = s.model_view.*which;
+            const auto found = brdf.type == BrdfType::Simulated
+                                   ? models.end()
+                                   : std::find(models.begin(), models.end(), brdf.model);
+            return static_cast<int>(found - models.begin());
+        },
+        [which, models = models_](StudioSettings& s, int index) {
+            BrdfSettings& brdf = s.model_view.*which;
+            const auto place = static_cast<std::size_t>(index);
+            brdf.type = place < models.size() ? BrdfType::Model : BrdfType::Simulated;
+            if (place < models.size()) brdf.model = models[place];
         });
 }
 
-QWidget* BrdfFields::cook_torrance_fields() {
-    auto* fields = new QWidget;
-    fields->setObjectName(prefix_ + "cook-torrance-fields");
-    auto* form = new_rows(fields);
-    add_row(*form, tr("Metallic"),
-            number("metallic", tr("Metallic"), 1, 0.01, &BrdfSettings::metallic),
-            tr("0 … 1, no unit: F0 = 0.04 + (albedo − 0.04) · metallic of Schlick's Fresnel term "
-               "(thesis eq. 3.3); a metal has no diffuse part (eq. 4.4)"));
-    add_row(*form, tr("Roughness"),
-            number("roughness", tr("Roughness"), 1, 0.01, &BrdfSettings::roughness),
-            tr("0 … 1, no unit: α = roughness² of the distribution of normals (thesis eq. 3.8), "
-               "k = (roughness + 1)² / 8 of the shadowing (eq. 3.6); below 0.01 counts as 0.01"));
-    add_row(*form, tr("Albedo"), colour("albedo", tr("Albedo"), &BrdfSettings::albedo),
-            tr("Red, green, blue, each 0 … 1: c of thesis eq. 4.4, the colour of the diffuse part "
-               "and of a metal's highlight"));
-    return fields;
+/// Names of controls are those of the parameters, which models share: there are fields of one model
+/// at a time.
+void BrdfFields::show_model(const std::string& name) {
+    if (fields_ != nullptr && name == shown_model_) return;
+    if (fields_ != nullptr) {
+        fields_->hide();
+        fields_->setParent(nullptr);
+        fields_->deleteLater();
+    }
+    shown_model_ = name;
+    const auto model = find_bsdf_model(name);
+    if (!model) return;
+    const Which which = which_;
+    const auto access = [which](auto& s) -> auto& {
+        return (s.model_view.*which).settings;
+    };
+    fields_ = new ModelForm(document_, model_rows(access, *model), prefix_, side_);
+    place_->layout()->addWidget(fields_);
+    fields_->show();
 }
 
 QWidget* BrdfFields::simulated_fields() {
-    constexpr double kMostFactor = 100;
     auto* fields = new QWidget;
     fields->setObjectName(prefix_ + "simulated-fields");
     auto* form = new_rows(fields);
-    add_row(*form, tr("Normalize Factor"),
-            number("normalize-factor", tr("Normalize Factor"), kMostFactor, 0.01,
-                   &BrdfSettings::normalize_factor),
+    add_row(*form, tr("Normalize Factor"), factor(),
             tr("0 … 100, no unit: multiplies the simulated BRDF [1/sr]; 1 is physically right"));
     add_row(*form, tr("Albedo"), colour("diffuse", tr("Albedo"), &BrdfSettings::diffuse),
             tr("Red, green, blue, each 0 … 1: albedo / π is added to the simulated BRDF (the "
@@ -77,24 +102,16 @@ QWidget* BrdfFields::simulated_fields() {
     return fields;
 }
 
-QWidget* BrdfFields::number(const QString& name, const QString& what, double high, double step,
-                            double BrdfSettings::*value) {
+QWidget* BrdfFields::factor() {
+    constexpr double kMostFactor = 100;  // no slider is fine enough about 1 and long enough
+    auto* box = new NumberBox(0, kMostFactor, 3, 0.1);
+    box->setObjectName(prefix_ + "normalize-factor");
     const Which which = which_;
-    const auto read = [which, value](const StudioSettings& s) {
-        return s.model_view.*which.*value;
-    };
-    const auto write = [which, value](StudioSettings& s, double x) {
-        s.model_view.*which.*value = x;
-    };
-    if (high > 1) {  // no slider is fine enough about 1 and long enough for the rest
-        auto* box = new NumberBox(0, high, 3, 0.1);
-        box->setObjectName(prefix_ + name);
-        bindings_.bind(box, what + side_, read, write);
-        return box;
-    }
-    auto* field = new SliderField(prefix_ + name, 0, high, 3, step);
-    bindings_.bind(field, what + side_, read, write);
-    return field;
+    bindings_.bind(
+        box, tr("Normalize Factor") + side_,
+        [which](const StudioSettings& s) { return (s.model_view.*which).normalize_factor; },
+        [which](StudioSettings& s, double x) { (s.model_view.*which).normalize_factor = x; });
+    return box;
 }
 
 QWidget* BrdfFields::colour(const QString& name, const QString& what, Rgb BrdfSettings::*value) {

@@ -5,11 +5,16 @@
 #include "colour_field.h"
 
 #include <QFormLayout>
+#include <QPointer>
 #include <QWidget>
+
+#include <string>
+#include <vector>
 
 namespace asperity::studio {
 
-/// BRDF Type and the fields of the chosen type (thesis 2.3.1), for one of a ModelView's BRDFs.
+/// BRDF Type and the fields of the chosen type (thesis 2.3.1), for one of a ModelView's BRDFs: each
+/// analytic model of bsdf_models() when it is made, and Simulated.
 class BrdfFields : public QWidget {
     Q_OBJECT
 
@@ -22,16 +27,19 @@ class BrdfFields : public QWidget {
 
   private:
     void add_type(QFormLayout& form);
-    QWidget* cook_torrance_fields();
+    void show_model(const std::string& name);
     QWidget* simulated_fields();
-    QWidget* number(const QString& name, const QString& what, double high, double step,
-                    double BrdfSettings::*value);
+    QWidget* factor();
     QWidget* colour(const QString& name, const QString& what, Rgb BrdfSettings::*value);
 
     Document& document_;
     Bindings& bindings_;
     Which which_;
     QString prefix_, side_;
+    std::vector<std::string> models_;  ///< in the order of the list
+    std::string shown_model_;
+    QWidget* place_;            ///< of the fields of a model
+    QPointer<QWidget> fields_;  ///< of `shown_model_`
 };
 
 }  // namespace asperity::studio

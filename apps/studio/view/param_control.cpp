@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "param_control.h"
 
+#include "colour_field.h"
 #include "section.h"
 
 #include <QLineEdit>
@@ -44,17 +45,18 @@ QString suffix_of(const ParamInfo& info) {
     return info.unit.empty() ? QString() : " " + QString::fromStdString(info.unit);
 }
 
-QWidget* real_control(const Param<StudioSettings>& param, const QString& label,
+QWidget* real_control(const Param<StudioSettings>& param, const QString& label, const QString& name,
                       Bindings& bindings) {
     constexpr int kDecimals = 4;
-    constexpr double kOneDigit = 1e-4, kLongestSlider = 180;
+    constexpr double kOneDigit = 1e-4, kLongestSlider = 180, kMostRatio = 1000;
     const Range& range = param.info.range;
     // An open end is not in the range: the box ends one digit before it
     const double low = std::max(range.low + (range.low_open ? kOneDigit : 0), -1e15);
     const double high = std::min(range.high - (range.high_open ? kOneDigit : 0), 1e15);
-    if (high - low <= kLongestSlider) {
-        auto* field =
-            new SliderField(kebab_case(label), low, high, kDecimals, high - low > 2 ? 1 : 0.01);
+    // No slider is fine at one end of a range over orders of magnitude and quick to the other
+    const bool magnitudes = range.low > 0 && range.high > kMostRatio * range.low;
+    if (high - low <= kLongestSlider && !magnitudes) {
+        auto* field = new SliderField(name, low, high, kDecimals, high - low > 2 ? 1 : 0.01);
         field->box().setSuffix(suffix_of(param.info));
         bindings.bind(field, label, reader<double>(param), writer<double>(param));
         return field;
@@ -77,19 +79,24 @@ QWidget* integer_control(const Param<StudioSettings>& param, const QString& labe
     return box;
 }
 
+/// The word for a choice left open is the first of the list.
 QWidget* choice_control(const Param<StudioSettings>& param, const QString& label,
                         Bindings& bindings) {
     auto* list = new QComboBox;
-    for (const std::string& choice : param.info.choices) list->addItem(entry_of(choice));
+    std::vector<ParamValue> values(param.info.choices.begin(), param.info.choices.end());
+    if (!param.info.absent.empty()) values.emplace(values.begin());
+    for (const ParamValue& value : values)
+        list->addItem(entry_of(std::holds_alternative<std::monostate>(value)
+                                   ? param.info.absent
+                                   : std::get<std::string>(value)));
     bindings.bind(
         list, label,
-        [get = param.get, choices = param.info.choices](const StudioSettings& s) {
-            const auto found =
-                std::find(choices.begin(), choices.end(), std::get<std::string>(get(s)));
-            return static_cast<int>(found - choices.begin());
+        [get = param.get, values](const StudioSettings& s) {
+            return static_cast<int>(std::find(values.begin(), values.end(), get(s)) -
+                                    values.begin());
         },
-        [set = param.set, choices = param.info.choices](StudioSettings& s, int index) {
-            set(s, choices[static_cast<std::size_t>(index)]);
+        [set = param.set, values](StudioSettings& s, int index) {
+            set(s, values[static_cast<std::size_t>(index)]);
         });
     return list;
 }
@@ -127,10 +134,33 @@ QWidget* text_control(const Param<StudioSettings>& param, const QString& label, 
     return line;
 }
 
-QWidget* control_of(const Param<StudioSettings>& param, const QString& label, Bindings& bindings,
-                    Document& document) {
+/// A list of shares that cannot be left open is one for each of red, green and blue.
+bool is_colour(const ParamInfo& info) {
+    return info.type == ParamType::List && info.range.low == 0 && info.range.high == 1 &&
+           info.most >= 3;
+}
+
+QWidget* colour_control(const Param<StudioSettings>& param, const QString& label,
+                        const QString& name, Bindings& bindings, Document& document) {
+    auto* field = new ColourField(name);
+    bindings.follow([field, get = param.get](const StudioSettings& s) {
+        const auto list = std::get<std::vector<double>>(get(s));
+        const auto entry = [&](std::size_t k) { return list[list.size() < 3 ? 0 : k]; };
+        if (!list.empty()) field->set_value({entry(0), entry(1), entry(2)});
+    });
+    QObject::connect(
+        field, &ColourField::changed, &document, [&document, label, set = param.set](Rgb c) {
+            document.change(label, [&](StudioSettings& s) { set(s, std::vector{c.r, c.g, c.b}); });
+        });
+    return field;
+}
+
+QWidget* control_of(const Param<StudioSettings>& param, const QString& label, const QString& name,
+                    Bindings& bindings, Document& document) {
+    if (param.info.type == ParamType::Choice) return choice_control(param, label, bindings);
     // What may be left open has a word for that
     if (!param.info.absent.empty()) return text_control(param, label, bindings, document);
+    if (is_colour(param.info)) return colour_control(param, label, name, bindings, document);
     switch (param.info.type) {
         case ParamType::Flag: {
             auto* box = new QCheckBox;
@@ -142,9 +172,8 @@ QWidget* control_of(const Param<StudioSettings>& param, const QString& label, Bi
         case ParamType::Natural:
             return natural_control(param, label, bindings, document);
         case ParamType::Real:
-            return real_control(param, label, bindings);
+            return real_control(param, label, name, bindings);
         case ParamType::Choice:
-            return choice_control(param, label, bindings);
         case ParamType::Text:
         case ParamType::List:
         case ParamType::Pair:
@@ -193,10 +222,11 @@ void NaturalBox::take(std::uint64_t value) {
     if (other) emit changed(value);
 }
 
-QWidget* make_control(const Param<StudioSettings>& param, const QString& label, Bindings& bindings,
-                      Document& document) {
-    QWidget* control = control_of(param, label, bindings, document);
-    if (control->objectName().isEmpty()) control->setObjectName(kebab_case(label));
+QWidget* make_control(const Param<StudioSettings>& param, const QString& step, Bindings& bindings,
+                      Document& document, const QString& name) {
+    const QString own = name.isEmpty() ? kebab_case(step) : name;
+    QWidget* control = control_of(param, step, own, bindings, document);
+    if (control->objectName().isEmpty()) control->setObjectName(own);
     return control;
 }
 

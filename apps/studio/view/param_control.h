@@ -35,9 +35,10 @@ class NaturalBox : public QAbstractSpinBox {
 };
 
 /// A control for a setting, from its row: a box, a slider, a list, with the range of the row; it is
-/// tied to the setting, and named after `label`, which names the step in the Edit menu too.
-QWidget* make_control(const Param<StudioSettings>& param, const QString& label, Bindings& bindings,
-                      Document& document);
+/// tied to the setting. `step` is its name in the Edit menu, `name` that of the control; empty:
+/// made from `step`.
+QWidget* make_control(const Param<StudioSettings>& param, const QString& step, Bindings& bindings,
+                      Document& document, const QString& name = {});
 
 /// What a row says of its setting: one sentence, its range, its default.
 QString tooltip_of(const Param<StudioSettings>& param);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plot_controls.h"
 
+#include "model_form.h"
 #include "section.h"
 
 #include <QHBoxLayout>
@@ -102,9 +103,8 @@ QLayout* PlotControls::make_buttons() {
 QLayout* PlotControls::make_models() {
     auto* grid = new QGridLayout;
     grid->setColumnStretch(1, 1);
-    add_model(*grid, 0, tr("Cook-Torrance"), &PlotView::cook_torrance);
-    add_model(*grid, 1, tr("GGX"), &PlotView::ggx);
-    add_model(*grid, 2, tr("Beckmann"), &PlotView::beckmann);
+    for (const BsdfModel& model : bsdf_models())
+        add_model(*grid, static_cast<int>(models_.size()), model);
     auto* follow = make_button<QCheckBox>(
         tr("Follow Surface"), tr("The models take their alpha from the surface: its rms gradient, "
                                  "alpha = sqrt(2) times the rms slope along an axis"));
@@ -112,33 +112,72 @@ QLayout* PlotControls::make_models() {
         follow, tr("Follow Surface"),
         [](const StudioSettings& s) { return s.plots.follow_surface; },
         [](StudioSettings& s, bool on) { s.plots.follow_surface = on; });
-    grid->addWidget(follow, 3, 0);
-    grid->addLayout(make_buttons(), 3, 1);
+    const int last = static_cast<int>(models_.size());
+    grid->addWidget(follow, last, 0);
+    grid->addLayout(make_buttons(), last, 1, 1, 2);
     return grid;
 }
 
-void PlotControls::add_model(QGridLayout& grid, int row, const QString& name,
-                             Overlay PlotView::*overlay) {
-    const QString note =
-        overlay == &PlotView::cook_torrance
-            ? tr("Thesis eq. 4.1-4.4 for a white metal; roughness = sqrt(alpha), 1 at most")
-            : tr("Single reflection of a surface with this distribution of normals and facets as "
-                 "simulated: f = F D G2 / (4 cos theta_i cos theta_o)");
-    auto* shown = make_button<QCheckBox>(name, note);
-    shown->setObjectName("show-" + kebab_case(name));
+void PlotControls::add_model(QGridLayout& grid, int row, const BsdfModel& model) {
+    const QString label = QString::fromStdString(model.label.empty() ? model.name : model.label);
+    QString note = QString::fromStdString(model.doc);
+    note = note.left(1).toUpper() + note.mid(1);
+    auto* shown = make_button<QCheckBox>(label, note);
+    shown->setObjectName("show-" + QString::fromStdString(model.name));
     bindings_.bind(
-        shown, name, [overlay](const StudioSettings& s) { return (s.plots.*overlay).shown; },
-        [overlay](StudioSettings& s, bool on) { (s.plots.*overlay).shown = on; });
-
-    const QString label = name + " Alpha";
-    auto* alpha = new SliderField(kebab_case(label), kLeastAlpha, kLargestAlpha, 3, 0.01);
-    alpha->setToolTip(tr("Width alpha of the distribution of slopes") + "\n" + note);
-    bindings_.bind(
-        alpha, label, [overlay](const StudioSettings& s) { return (s.plots.*overlay).alpha; },
-        [overlay](StudioSettings& s, double value) { (s.plots.*overlay).alpha = value; });
+        shown, label,
+        [name = model.name](const StudioSettings& s) { return s.plots.overlay(name).shown; },
+        [name = model.name](StudioSettings& s, bool on) { s.plots.overlays[name].shown = on; });
     grid.addWidget(shown, row, 0);
-    grid.addWidget(alpha, row, 1);
-    models_.push_back({overlay, alpha});
+    models_.push_back({model.name, nullptr});
+    if (model.with_alpha) grid.addWidget(alpha_of(model, label, note), row, 1);
+    grid.addWidget(more_of(model, label), row, 2);
+}
+
+QWidget* PlotControls::alpha_of(const BsdfModel& model, const QString& label,
+                                const QString& tooltip) {
+    const QString step = label + " Alpha";
+    auto* alpha = new SliderField(QString::fromStdString(model.name) + "-alpha", kLeastAlpha,
+                                  kLargestAlpha, 3, 0.01);
+    QString keys;
+    for (const auto& [key, text] : model.with_alpha(0.25))
+        if (key != "alpha") keys += tr("; 0.25 is %1 %2").arg(key.c_str(), text.c_str());
+    alpha->setToolTip(tr("Width alpha of the distribution of slopes") + keys + "\n" + tooltip);
+    bindings_.bind(
+        alpha, step,
+        [name = model.name](const StudioSettings& s) { return s.plots.overlay(name).alpha; },
+        [name = model.name](StudioSettings& s, double value) {
+            s.plots.overlays[name].alpha = value;
+        });
+    models_.back().alpha = alpha;
+    return alpha;
+}
+
+/// A button that opens the fields of all other parameters.
+QWidget* PlotControls::more_of(const BsdfModel& model, const QString& label) {
+    const QString name = QString::fromStdString(model.name);
+    auto* more = make_button<QToolButton>(
+        tr("…"),
+        tr("Further settings of %1; facets reflect as measured unless set here").arg(label));
+    more->setObjectName("more-" + name);
+    more->setAccessibleName(tr("Further settings of %1").arg(label));
+    connect(more, &QToolButton::clicked, this, [this, more, model, name, label] {
+        const auto access = [](auto& s) -> auto& {
+            return s.plots.overlay_settings;
+        };
+        const SpecSettings widths = model.with_alpha ? model.with_alpha(1) : SpecSettings();
+        auto* fields =
+            new ModelForm(workbench_.document(), model_rows(access, model, widths),
+                          "plot-" + name + "-", QStringLiteral(" (%1)").arg(label), this);
+        fields->setWindowFlag(Qt::Popup);
+        fields->setAttribute(Qt::WA_DeleteOnClose);
+        fields->layout()->setContentsMargins(8, 8, 8, 8);
+        fields->adjustSize();
+        const QPoint corner = more->mapToGlobal(QPoint(more->width(), more->height()));
+        fields->move(corner - QPoint(fields->width(), 0));
+        fields->show();
+    });
+    return more;
 }
 
 void PlotControls::show_surface_alpha(std::optional<double> alpha) {
@@ -150,10 +189,12 @@ void PlotControls::update_models() {
     const PlotView& view = workbench_.settings().plots;
     const bool follows = view.follow_surface && surface_alpha_.has_value();
     for (const Model& model : models_) {
-        const double alpha = follows ? *surface_alpha_ : (view.*model.overlay).alpha;
+        if (model.alpha == nullptr) continue;
+        const Overlay overlay = view.overlay(model.name);
+        const double alpha = follows ? *surface_alpha_ : overlay.alpha;
         model.alpha->set_range(kLeastAlpha, std::max(kLargestAlpha, alpha));
         model.alpha->set_value(alpha);
-        model.alpha->setEnabled((view.*model.overlay).shown && !view.follow_surface);
+        model.alpha->setEnabled(overlay.shown && !view.follow_surface);
     }
 }
 

@@ -3,15 +3,19 @@
 
 #include "bindings.h"
 
+#include <asperity/bsdf/bsdf_models.h>
+
 #include <QGridLayout>
 #include <QPushButton>
 #include <QWidget>
 
-#include <array>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace asperity::studio {
 
-/// What is plotted and how; which models beside it.
+/// What is plotted and how; which models beside it: those of bsdf_models() when it is made.
 class PlotControls : public QWidget {
     Q_OBJECT
 
@@ -29,12 +33,14 @@ class PlotControls : public QWidget {
     QLayout* make_choices();
     QLayout* make_models();
     QLayout* make_buttons();
-    void add_model(QGridLayout& grid, int row, const QString& name, Overlay PlotView::*overlay);
+    void add_model(QGridLayout& grid, int row, const BsdfModel& model);
+    QWidget* alpha_of(const BsdfModel& model, const QString& label, const QString& tooltip);
+    QWidget* more_of(const BsdfModel& model, const QString& label);
     void update_models();
 
     struct Model {
-        Overlay PlotView::*overlay;
-        SliderField* alpha;
+        std::string name;
+        SliderField* alpha;  ///< null: it has no such width
     };
 
     Workbench& workbench_;

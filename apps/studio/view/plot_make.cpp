@@ -28,18 +28,34 @@ int shown_channel(const PlotSource& source) {
     return channel < source.layers.head->channels() ? channel : -1;
 }
 
+std::vector<OverlayModel> shown_models(const PlotSource& source) {
+    return overlay_models(source.view, source.surface_alpha, source.layers.head.get());
+}
+
+/// The ink of the analytic model at a place of their list; they begin anew after the last.
+plots::PlotInk model_ink(std::size_t place) {
+    using plots::PlotInk;
+    constexpr std::array kInks = {PlotInk::Eighth,   PlotInk::CookTorrance, PlotInk::Ggx,
+                                  PlotInk::Beckmann, PlotInk::Fifth,        PlotInk::Seventh,
+                                  PlotInk::Sixth};
+    return kInks[place % kInks.size()];
+}
+
 void add_models(plots::CurveSet& set, const ModelValues* models, const PlotSource& source,
                 const std::string& quantity) {
-    using plots::PlotInk;
     if (models == nullptr) return;
-    constexpr std::array kInks = {PlotInk::CookTorrance, PlotInk::Ggx, PlotInk::Beckmann};
-    constexpr std::array kBriefly = {"Cook-Torrance", "GGX", "Beckmann"};
-    const OverlayAlphas asked = overlay_alphas(source.view, source.surface_alpha);
-    for (std::size_t k = 0; k < kOverlays; ++k) {
-        if (asked[k] == 0 || models->y[k].empty()) continue;
-        set.curves.push_back(
-            plots::model_curve(overlay_name(k, models->wish.alphas[k]).toStdString(), kBriefly[k],
-                               quantity, kInks[k], models->x, models->y[k]));
+    for (const OverlayModel& asked : shown_models(source)) {
+        const auto& found = models->wish.models;
+        // A model may have been made of other settings a moment ago.
+        const auto made = std::find_if(found.begin(), found.end(), [&](const OverlayModel& model) {
+            return model.name == asked.name;
+        });
+        if (made == found.end()) continue;
+        const auto& y = models->y[static_cast<std::size_t>(made - found.begin())];
+        if (y.empty()) continue;
+        set.curves.push_back(plots::model_curve(made->title.toStdString(),
+                                                made->label.toStdString(), quantity,
+                                                model_ink(made->place), models->x, y));
     }
 }
 
@@ -120,7 +136,7 @@ std::shared_ptr<const plots::Plot> hemisphere_plot(const PlotSource& source, con
 std::optional<ModelWish> models_for(const PlotSource& source) {
     ModelWish wish;
     wish.kind = source.view.kind;
-    wish.alphas = overlay_alphas(source.view, source.surface_alpha);
+    wish.models = shown_models(source);
     if (wish.kind == PlotKind::Hemisphere) return std::nullopt;
     if (wish.kind == PlotKind::Normals) {
         wish.surface = source.surface;

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plot_models.h"
 
-#include <asperity/bsdf/models/cook_torrance.h>
-#include <asperity/bsdf/models/microfacet.h>
+#include <asperity/bsdf/spec.h>
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
 #include <asperity/measured/albedo_by_angle.h>
 #include <asperity/measured/lobe_slice.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace asperity::studio {
 
@@ -17,7 +13,6 @@ namespace {
 
 constexpr int kNormalBins = 180;   ///< half a degree each
 constexpr double kAlbedoStep = 3;  ///< degrees
-constexpr double kLeastAlpha = 1e-3, kLargestAlpha = 100;
 
 /// A plot of a lobe is the same lobe on either paper.
 PlotKind kind_of_curves(PlotKind kind) {
@@ -30,18 +25,11 @@ struct ShownModel {
     int channel = -1;
 };
 
-/// The models reflect as the facets of the measurement do; Cook-Torrance is a white metal.
-ShownModel make_model(std::size_t overlay, double alpha, const ModelWish& wish) {
-    if (overlay == 0) {
-        CookTorranceSettings settings;
-        settings.roughness = cook_torrance_roughness(alpha);
-        return {std::make_unique<CookTorranceBrdf>(settings), -1};
-    }
-    MicrofacetSettings settings;
-    settings.distribution = overlay == 1 ? SlopeFamily::Ggx : SlopeFamily::Beckmann;
-    settings.alpha_x = settings.alpha_y = alpha;
-    settings.optics = wish.head->experiment.optics;
-    return {std::make_unique<MicrofacetBrdf>(settings), wish.channel};
+/// A model without the measurement's channels is shown as the mean of its own.
+ShownModel make_model(const std::string& spec, const ModelWish& wish) {
+    ShownModel model{parse_brdf_spec(spec), -1};
+    if (wish.head && model.brdf->channels() == wish.head->channels()) model.channel = wish.channel;
+    return model;
 }
 
 void require_going(const Run& run) {
@@ -69,11 +57,9 @@ std::vector<double> lobe_curve(const ShownModel& model, const ModelWish& wish) {
     return f;
 }
 
-std::vector<double> normals_curve(std::size_t overlay, double alpha) {
-    const SlopeFamily family = overlay == 2 ? SlopeFamily::Beckmann : SlopeFamily::Ggx;
-    const double roughness = cook_torrance_roughness(alpha);
-    return normal_profile(family, overlay == 0 ? roughness * roughness : alpha, kNormalBins)
-        .density;
+std::vector<double> normals_curve(const ShownModel& model, const Run& run) {
+    const auto profile = normal_profile(*model.brdf, kNormalBins, run);
+    return profile ? profile->density : std::vector<double>();
 }
 
 std::vector<double> abscissae(const ModelWish& wish) {
@@ -102,40 +88,23 @@ std::shared_ptr<const ModelValues> values_of(const ModelWish& wish,
         values->normals = normals ? std::move(normals)
                                   : std::make_shared<const NormalProfile>(
                                         normal_profile(*wish.surface, kNormalBins, run));
-    for (std::size_t k = 0; k < kOverlays; ++k) {
-        const double alpha = wish.alphas[k];
-        if (alpha == 0) continue;
+    for (const OverlayModel& overlay : wish.models) {
         require_going(run);
-        values->y[k] = wish.kind == PlotKind::Normals ? normals_curve(k, alpha)
-                       : wish.kind == PlotKind::Albedo
-                           ? albedo_curve(make_model(k, alpha, wish), values->x, run)
-                           : lobe_curve(make_model(k, alpha, wish), wish);
+        values->y.emplace_back();
+        try {
+            const ShownModel model = make_model(overlay.spec, wish);
+            values->y.back() = wish.kind == PlotKind::Normals  ? normals_curve(model, run)
+                               : wish.kind == PlotKind::Albedo ? albedo_curve(model, values->x, run)
+                                                               : lobe_curve(model, wish);
+        } catch (const Error& error) {  // the others are shown
+            if (error.code() == ErrorCode::Stopped) throw;
+            values->trouble = QString::fromUtf8(error.what());
+        }
     }
     return values;
 }
 
 }  // namespace
-
-OverlayAlphas overlay_alphas(const PlotView& view, std::optional<double> surface_alpha) {
-    const auto alpha_of = [&](const Overlay& overlay) {
-        if (!overlay.shown) return 0.0;
-        const double alpha = view.follow_surface && surface_alpha ? *surface_alpha : overlay.alpha;
-        return std::clamp(alpha, kLeastAlpha, kLargestAlpha);
-    };
-    return {alpha_of(view.cook_torrance), alpha_of(view.ggx), alpha_of(view.beckmann)};
-}
-
-double cook_torrance_roughness(double alpha) {
-    return std::clamp(std::sqrt(alpha), 0.01, 1.0);
-}
-
-QString overlay_name(std::size_t overlay, double alpha) {
-    const auto number = [](double value) { return QString::number(value, 'g', 3); };
-    if (overlay == 0)
-        return QStringLiteral("Cook-Torrance r = ") + number(cook_torrance_roughness(alpha));
-    return (overlay == 1 ? QStringLiteral("GGX α = ") : QStringLiteral("Beckmann α = ")) +
-           number(alpha);
-}
 
 bool ModelWish::same_scene(const ModelWish& other) const {
     return kind_of_curves(kind) == kind_of_curves(other.kind) && head == other.head &&
@@ -157,7 +126,7 @@ const ModelValues* ModelCurves::find(const ModelWish& wish) const {
 
 void ModelCurves::want(const ModelWish& wish) {
     const ModelValues* found = find(wish);
-    if (found != nullptr && found->wish.alphas == wish.alphas) {
+    if (found != nullptr && found->wish.models == wish.models) {
         waiting_.reset();
     } else if (background_.busy()) {
         waiting_ = wish;
@@ -176,8 +145,10 @@ void ModelCurves::start(const ModelWish& wish) {
 }
 
 void ModelCurves::take(std::shared_ptr<const ModelValues> values) {
+    const QString trouble = values->trouble;
     found_[kind_of_curves(values->wish.kind)] = std::move(values);
     emit changed();
+    if (!trouble.isEmpty()) emit failed(trouble);
     serve_waiting();
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "../model/background.h"
-#include "../model/settings.h"
+#include "plot_overlays.h"
 
 #include <asperity/gonio/measurement.h>
 #include <asperity/measured/normal_profile.h>
@@ -11,8 +11,6 @@
 #include <QObject>
 #include <QString>
 
-#include <array>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -20,41 +18,26 @@
 
 namespace asperity::studio {
 
-/// The analytic models of PlotView, in its order: Cook-Torrance, GGX, Beckmann.
-inline constexpr std::size_t kOverlays = 3;
-/// Widths of their slopes; 0: not shown.
-using OverlayAlphas = std::array<double, kOverlays>;
-
-/// The alphas that the settings ask for. `surface_alpha`, if there is one, is that of the surface:
-/// its rms gradient, Beckmann's alpha.
-OverlayAlphas overlay_alphas(const PlotView& view, std::optional<double> surface_alpha);
-
-/// Roughness of the thesis' Cook-Torrance model for slopes of this width: sqrt(alpha), in the range
-/// that the model takes.
-double cook_torrance_roughness(double alpha);
-
-/// "GGX α = 0.3", "Cook-Torrance r = 0.55".
-QString overlay_name(std::size_t overlay, double alpha);
-
 /// What the analytic curves of a plot depend on.
 struct ModelWish {
     PlotKind kind = PlotKind::LobePolar;  ///< a lobe, the albedo or the normals
-    OverlayAlphas alphas{};
+    std::vector<OverlayModel> models;
     std::shared_ptr<const Measurement> head;     ///< but for the normals: detector and facets
     double theta_i = 0, phi_i = 0;               ///< of lobes [rad]
     int channel = -1;                            ///< -1: the mean of all
     std::shared_ptr<const Heightfield> surface;  ///< of the normals
 
-    /// Equal but for the alphas.
+    /// Equal but for the models.
     bool same_scene(const ModelWish& other) const;
 };
 
 /// Curves of the models, found by a thread of its own.
 struct ModelValues {
     ModelWish wish;
-    std::vector<double> x;                         ///< degrees: theta_o, theta_i or theta_m
-    std::array<std::vector<double>, kOverlays> y;  ///< f, albedo or D; empty: not shown
+    std::vector<double> x;               ///< degrees: theta_o, theta_i or theta_m
+    std::vector<std::vector<double>> y;  ///< of each model f, albedo or D; empty: it has none
     std::shared_ptr<const NormalProfile> normals;  ///< of the surface
+    QString trouble;                               ///< why a model could not be made
 };
 
 /// Finds curves of models in the background and keeps the latest of each plot. A wish that comes
@@ -66,7 +49,7 @@ class ModelCurves : public QObject {
     explicit ModelCurves(QObject* parent = nullptr);
 
     void want(const ModelWish& wish);
-    /// The latest of the wish's scene, whatever the alphas; null: none yet.
+    /// The latest of the wish's scene, whatever the models; null: none yet.
     const ModelValues* find(const ModelWish& wish) const;
 
   signals:

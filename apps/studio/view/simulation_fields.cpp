@@ -15,14 +15,8 @@ namespace asperity::studio {
 
 namespace {
 
-/// The metals by name; the list of facets begins with the kinds that are no metals.
-struct Metal {
-    const char* symbol;
-    const char* name;
-};
-constexpr Metal kMetals[] = {{"Al", "Aluminium"}, {"Ag", "Silver"},  {"Au", "Gold"},
-                             {"Cu", "Copper"},    {"Cr", "Chrome"},  {"Fe", "Iron"},
-                             {"Ni", "Nickel"},    {"Ti", "Titanium"}};
+/// The list of facets begins with the kinds that are no metals; the metals are those of
+/// materials().
 enum Facets { kMirrors, kSchlick, kDielectric, kFirstMetal };
 
 int facets_of(const OpticsSettings& optics) {
@@ -34,8 +28,9 @@ int facets_of(const OpticsSettings& optics) {
         case FresnelKind::Dielectric:
             return kDielectric;
         case FresnelKind::Conductor:
-            for (int metal = 0; metal < static_cast<int>(std::size(kMetals)); ++metal)
-                if (optics.material == kMetals[metal].symbol) return kFirstMetal + metal;
+            for (std::size_t metal = 0; metal < materials().size(); ++metal)
+                if (optics.material == materials()[metal].symbol)
+                    return kFirstMetal + static_cast<int>(metal);
     }
     return -1;  // a conductor of given indices: from a session, no entry of the list
 }
@@ -50,7 +45,7 @@ OpticsSettings optics_of(int facets) {
         optics.ior = {1.5};
     } else if (facets >= kFirstMetal) {
         optics.fresnel = FresnelKind::Conductor;
-        optics.material = kMetals[facets - kFirstMetal].symbol;
+        optics.material = materials()[static_cast<std::size_t>(facets - kFirstMetal)].symbol;
     }
     return optics;
 }
@@ -107,13 +102,17 @@ void SimulationFields::add_rays() {
     auto* jitter = new NumberBox(kLeastJitter, row.info.range.high, 3, 1);
     add_named_row(tr("Camera Jitter"), jitter, tooltip_of(row));
     lock_.add(jitter);
-    bindings_.bind(
-        jitter, tr("Camera Jitter"),
-        [](const StudioSettings& s) { return s.experiment.run.jitter; },
-        [](StudioSettings& s, double value) {
-            s.experiment.run.jitter = value;
-            s.experiment.run.rays = 0;
-        });
+    const auto read = [this](const StudioSettings& s) {
+        return jitter_of(s.experiment.run, workbench_.surface().cells());
+    };
+    connect(&workbench_.surface(), &SurfaceSource::ready, this, [this, jitter, read] {
+        const QSignalBlocker quiet(jitter);
+        jitter->setValue(read(workbench_.settings()));
+    });
+    bindings_.bind(jitter, tr("Camera Jitter"), read, [](StudioSettings& s, double value) {
+        s.experiment.run.jitter = value;
+        s.experiment.run.rays = 0;
+    });
     add_setting("bounces");
 }
 
@@ -145,8 +144,11 @@ void SimulationFields::add_layer() {
 void SimulationFields::add_facets() {
     auto* facets = new QComboBox;
     facets->addItems({tr("Perfect mirrors"), tr("Schlick, F0"), tr("Dielectric, index")});
-    for (const Metal& metal : kMetals)
-        facets->addItem(QString("%1 (%2)").arg(metal.name, metal.symbol));
+    const auto text = [](std::string_view s) {
+        return QString::fromUtf8(s.data(), static_cast<qsizetype>(s.size()));
+    };
+    for (const TabulatedMaterial& metal : materials())
+        facets->addItem(QString("%1 (%2)").arg(text(metal.name), text(metal.symbol)));
     add_named_row(
         tr("Facets"), facets,
         tr("How much a facet reflects: all (the thesis), Schlick's approximation (thesis eq. "

@@ -246,7 +246,7 @@ void SurfaceScene::paint_lines(QPainter& painter) const {
     if (const auto incidence = incidence_of(settings.experiment.illumination, view.current_layer);
         view.beam && incidence)
         paint_beam(lines, Beam(from_spherical(incidence->theta, incidence->phi), *surface),
-                   settings.experiment.run.jitter);
+                   jitter_of(settings.experiment.run, workbench_.surface().cells()));
     if (const std::optional<int> cell = workbench_.selected_cell();
         view.dome && cell && *cell < detector_.cells())
         paint_cell(lines, detector_, *cell);

@@ -29,7 +29,7 @@ void set_common(StudioSettings& s) {
     s.surface_view.path_count = 60;
     s.plots.scale = io::Scale::Linear;
     s.plots.follow_surface = true;
-    s.plots.cook_torrance.shown = s.plots.ggx.shown = s.plots.beckmann.shown = false;
+    for (auto& [name, overlay] : s.plots.overlays) overlay.shown = false;
 }
 
 void make_gaussian(StudioSettings& s, double alpha) {
@@ -93,7 +93,7 @@ constexpr std::array kSteps = {
             make_gaussian(s, 0.3);
             s.surface_view.current_layer = 8;
             s.plots.kind = PlotKind::LobeCartesian;
-            s.plots.cook_torrance.shown = true;
+            s.plots.overlays["cook-torrance"].shown = true;
         }},
 };
 

@@ -37,6 +37,10 @@ struct BsdfModel {
     /// Makes the BSDF; each key is one of `params` and none is there twice. Throws Error(Usage,
     /// key) for a value that is no value of its parameter or that the others do not go with.
     std::function<std::unique_ptr<Bsdf>(const SpecSettings&)> make = {};
+
+    /// The settings that give its facets slopes of the width alpha (1e-3 .. 100), or as near as the
+    /// model comes. Not set: it has no such width.
+    std::function<SpecSettings(double alpha)> with_alpha = {};
 };
 
 /// All models, in the order of lists: those of the library, then those added.
@@ -59,7 +63,7 @@ std::string from_spec_text(const ParamInfo& info, std::string_view text);
 std::string to_spec_text(const ParamInfo& info, std::string text);
 
 /// A model whose parameters are the rows of a settings struct. `required`: names of rows that a
-/// specification must give.
+/// specification must give. A row "alpha" is the width of the slopes of its facets.
 template <typename Settings>
 BsdfModel bsdf_model(std::string name, std::string label, std::string doc,
                      ParamTable<Settings> table,
@@ -71,6 +75,10 @@ BsdfModel bsdf_model(std::string name, std::string label, std::string doc,
             std::find(required.begin(), required.end(), row.info.name) != required.end();
         model.params.push_back({row.info, to_spec_text(row.info, row.default_text()), must});
     }
+    if (const Param<Settings>* width = find(table, "alpha"))
+        model.with_alpha = [info = width->info](double alpha) {
+            return SpecSettings{{info.name, to_spec_text(info, format(info, alpha))}};
+        };
     model.make = [table = std::move(table), make = std::move(make)](const SpecSettings& given) {
         Settings settings;
         for (const auto& [key, value] : given) {

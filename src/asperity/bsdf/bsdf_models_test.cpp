@@ -2,6 +2,7 @@
 #include <asperity/bsdf/bsdf_models.h>
 #include <asperity/bsdf/models/lambert.h>
 #include <asperity/bsdf/spec.h>
+#include <asperity/core/directions.h>
 #include <asperity/core/error.h>
 #include <asperity/params/fields.h>
 
@@ -51,6 +52,21 @@ TEST(BsdfModelsTest, HelpShowsEachModelAndKey) {
     std::size_t begin = 0;
     for (std::size_t end; (end = help.find('\n', begin)) != std::string::npos; begin = end + 1)
         EXPECT_LE(end - begin, 90u) << help;
+}
+
+TEST(BsdfModelsTest, WidthsOfSlopes) {
+    // D of GGX, Beckmann and Student's t along the normal: 1 / (pi alpha^2); that of the thesis'
+    // model too, whose alpha is roughness^2.
+    const auto peak = [](const std::string& name, double alpha) {
+        const BsdfModel model = *find_bsdf_model(name);
+        return *model.make(model.with_alpha(alpha))->normal_density({0, 0, 1});
+    };
+    for (const char* name : {"ggx", "beckmann", "cook-torrance"})
+        EXPECT_NEAR(peak(name, 0.25) * kPi * 0.0625, 1, 1e-12) << name;
+    // It ends at roughness 1.
+    EXPECT_NEAR(peak("cook-torrance", 4) * kPi, 1, 1e-12);
+    EXPECT_FALSE(find_bsdf_model("lambert")->with_alpha);
+    EXPECT_FALSE(LambertBrdf({0.5}).normal_density({0, 0, 1}).has_value());
 }
 
 struct GreySettings {

@@ -76,4 +76,28 @@ NormalProfile normal_profile(SlopeFamily family, double alpha, int bins) {
     return profile;
 }
 
+std::optional<NormalProfile> normal_profile(const Bsdf& model, int bins, const Run& run) {
+    check_bins(bins);
+    if (!model.normal_density({0, 0, 1})) return std::nullopt;
+    constexpr int kRows = 128, kAzimuths = 64;
+    const int azimuths = model.isotropic() ? 1 : kAzimuths;
+    NormalProfile profile{std::vector<double>(static_cast<std::size_t>(bins))};
+    for (int t = 0; t < bins; ++t) {
+        if (!run.keep_going()) throw Error(ErrorCode::Stopped, "stopped");
+        const double low = profile.theta_edge(t), width = profile.theta_edge(t + 1) - low;
+        double sum = 0, weights = 0;
+        for (int row = 0; row < kRows; ++row) {
+            const double theta = low + (row + 0.5) / kRows * width;
+            const double weight = std::sin(theta) * std::cos(theta);
+            for (int column = 0; column < azimuths; ++column) {
+                const double phi = (column + 0.5) * 2 * kPi / azimuths;
+                sum += weight * *model.normal_density(from_spherical(theta, phi));
+                weights += weight;
+            }
+        }
+        profile.density[static_cast<std::size_t>(t)] = sum / weights;
+    }
+    return profile;
+}
+
 }  // namespace asperity

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/measured/normal_profile.h>
 
+#include <asperity/bsdf/models/lambert.h>
+#include <asperity/bsdf/models/microfacet.h>
 #include <asperity/bsdf/smith.h>
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
@@ -49,6 +51,34 @@ TEST(NormalProfileTest, OfALawIsItsDensity) {
             }
             EXPECT_NEAR(projected, 1, 1e-12);
         }
+}
+
+TEST(NormalProfileTest, OfAModelIsThatOfItsLaw) {
+    const asperity::Run run(1);
+    for (const SlopeFamily family : {SlopeFamily::Beckmann, SlopeFamily::Ggx})
+        for (const double alpha : {1e-3, 0.1, 1.0}) {
+            const NormalProfile law = normal_profile(family, alpha, 180);
+            MicrofacetSettings settings;
+            settings.distribution = family;
+            settings.alpha_x = settings.alpha_y = alpha;
+            const auto profile = normal_profile(MicrofacetBrdf(settings), 180, run);
+            ASSERT_TRUE(profile);
+            for (std::size_t t = 0; t < 180; ++t)
+                EXPECT_NEAR(profile->density[t], law.density[t], 1e-3 * law.density[0])
+                    << alpha << " " << t;
+        }
+    // Of an anisotropic one the mean over the azimuth: all normals are in it.
+    MicrofacetSettings settings;
+    settings.alpha_x = 0.2, settings.alpha_y = 0.6;
+    const auto profile = normal_profile(MicrofacetBrdf(settings), 180, run);
+    double projected = 0;
+    for (int t = 0; t < 180; ++t) {
+        const double s1 = std::sin(profile->theta_edge(t)),
+                     s2 = std::sin(profile->theta_edge(t + 1));
+        projected += profile->density[static_cast<std::size_t>(t)] * kPi * (s2 * s2 - s1 * s1);
+    }
+    EXPECT_NEAR(projected, 1, 1e-3);
+    EXPECT_FALSE(normal_profile(LambertBrdf({1.0}), 180, run).has_value());
 }
 
 TEST(NormalProfileTest, StopsAndRefuses) {

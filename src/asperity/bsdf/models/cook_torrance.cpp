@@ -10,10 +10,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace asperity {
 namespace {
 
+constexpr Range kRoughness = {0.01, 1};  // at 0 D is 0 / 0
 constexpr Names<GeometryRemap, 2> kRemaps = {{
     {"direct", GeometryRemap::Direct},
     {"ibl", GeometryRemap::Ibl},
@@ -127,11 +129,11 @@ Param<CookTorranceSettings> albedo_row() {
 
 BsdfModel cook_torrance_model() {
     using S = CookTorranceSettings;
-    return bsdf_model<S>(
+    BsdfModel model = bsdf_model<S>(
         "cook-torrance", "Cook-Torrance",
         "the thesis' model (eq. 4.2 and 4.4): GGX normals, Schlick's shadowing and reflectance",
         {field(&S::roughness, {.name = "roughness",
-                               .range = {0.01, 1},
+                               .range = kRoughness,
                                .doc = "alpha = roughness^2 of the distribution of normals (thesis "
                                       "eq. 3.8), and k of the shadowing (eq. 3.6)"}),
          field(&S::metallic, {.name = "metallic",
@@ -148,6 +150,11 @@ BsdfModel cook_torrance_model() {
                {.name = "diffuse",
                 .doc = "the diffuse part: on, (1 - F) (1 - metallic); off; or uncoupled, 1"})},
         [](const S& s) { return std::make_unique<CookTorranceBrdf>(s); }, {"roughness"});
+    model.with_alpha = [](double alpha) {
+        const double roughness = std::clamp(std::sqrt(alpha), kRoughness.low, kRoughness.high);
+        return SpecSettings{{"roughness", fmt::format("{}", roughness)}};
+    };
+    return model;
 }
 
 }  // namespace asperity

@@ -40,6 +40,9 @@ class MicrofacetModel : public Bsdf {
     int channels() const override { return fresnel_.channels(); }
     std::string name() const override { return name_; }
     bool isotropic() const override { return surface_.alpha_x == surface_.alpha_y; }
+    std::optional<double> normal_density(Vec3 wm) const override {
+        return surface_.normal_density(wm);
+    }
 
     void eval(Vec3 wi, Vec3 wo, std::span<double> f) const override {
         if (wi.z <= 0 || wo.z <= 0) {
