@@ -26,11 +26,12 @@ int main(int argc, char** argv) {
 
     asperity::studio::apply_theme(asperity::studio::preferences::theme());
     asperity::studio::MainWindow window;
+    const bool with_file = !options.positionalArguments().isEmpty();
+    window.begin(!with_file && asperity::studio::preferences::measure_at_start());
     window.show();
     QTimer::singleShot(0, &window, [&] {
         window.offer_lost_session();
-        if (!options.positionalArguments().isEmpty())
-            window.open(options.positionalArguments().first());
+        if (with_file) window.open(options.positionalArguments().first());
     });
     return QApplication::exec();
 }

@@ -30,6 +30,7 @@ std::string another_value(const Param<StudioSettings>& key) {
                              "first-person",
                              "lit",
                              "viridis",
+                             "0,0,3,0,0,-1,0,1,0,40",
                              "log",
                              "linear",
                              "disk",

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frame times of both scenes by the program's own counter, at 1280 x 720, while the camera is
+// Frame times of both scenes by the program's own counter, at 1920 x 1080, while the camera is
 // dragged round and after it stopped: a surface of 512 x 512 samples, and a model, a file if one is
 // named. Prints, judges nothing.
+#include "model/first_session.h"
 #include "view/model_scene.h"
 #include "view/surface_scene.h"
 
@@ -18,6 +19,8 @@ using namespace asperity;
 using namespace asperity::studio;
 
 namespace {
+
+const QSize kSize(1920, 1080);
 
 double cpu_seconds() {
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
@@ -84,7 +87,7 @@ void wait(int milliseconds) {
 
 void measure_surface(Workbench& bench) {
     SurfaceScene scene(bench);
-    scene.resize(1280, 720);
+    scene.resize(kSize);
     scene.show();
     const auto after = [&](const char* name, const Edit& edit) {
         bench.document().change("Frames", edit);
@@ -98,29 +101,42 @@ void measure_surface(Workbench& bench) {
     bench.draw_to_textures();
     after("roughness 1, in its dome", [](StudioSettings&) {});
     after("the same, lit", [](StudioSettings& s) { s.surface_view.shading = SurfaceShading::Lit; });
+    after("dome and lobe", [](StudioSettings& s) { s.surface_view.lobe = true; });
     after("and with 200 paths of light", [](StudioSettings& s) { s.surface_view.paths = true; });
 }
 
-void measure_model(Workbench& bench, const QString& model) {
+void measure_model(Workbench& bench, const QString& model, bool only_first) {
     studio::ModelScene scene(bench);
-    scene.resize(1280, 720);
+    scene.resize(kSize);
     scene.show();
     scene.load(model);
+    if (only_first) {
+        bench.document().change(
+            "First", [](StudioSettings& s) { s.experiment = first_session().experiment; });
+        bench.draw_to_textures();
+        run_until([&] { return !bench.is_drawing(); });
+    }
     const auto after = [&](const char* name, const Edit& edit) {
         bench.document().change("Frames", edit);
         run_until([&] { return scene.has_model() && scene.is_settled(); });
         wait(300);
         measure(scene.viewport(), name);
     };
-    after("model, Cook-Torrance", [](StudioSettings& s) { s.model_view.brdf_runs = true; });
-    after("model, simulated",
-          [](StudioSettings& s) { s.model_view.brdf.type = BrdfType::Simulated; });
-    after("model, split", [](StudioSettings& s) {
-        s.model_view.compare = true;
-        s.model_view.second.type = BrdfType::Model;
+    if (!only_first) {
+        after("model, Cook-Torrance", [](StudioSettings& s) { s.model_view.brdf_runs = true; });
+        after("model, simulated",
+              [](StudioSettings& s) { s.model_view.brdf.type = BrdfType::Simulated; });
+        after("model, split", [](StudioSettings& s) {
+            s.model_view.compare = true;
+            s.model_view.second.type = BrdfType::Model;
+        });
+        after("model, split, under the sky",
+              [](StudioSettings& s) { s.model_view.light = LightKind::Sky; });
+    }
+    after("model of the first session", [&model](StudioSettings& s) {
+        s.model_view = first_session().model_view;
+        s.model_view.model = model.toStdString();
     });
-    after("model, split, under the sky",
-          [](StudioSettings& s) { s.model_view.light = LightKind::Sky; });
 }
 
 }  // namespace
@@ -128,7 +144,7 @@ void measure_model(Workbench& bench, const QString& model) {
 int main(int argc, char** argv) {
     const QApplication application(argc, argv);
     Workbench bench;
-    measure_surface(bench);
-    measure_model(bench, argc > 1 ? QString::fromLocal8Bit(argv[1]) : QString("knot"));
+    if (argc <= 2) measure_surface(bench);
+    measure_model(bench, argc > 1 ? QString::fromLocal8Bit(argv[1]) : QString("knot"), argc > 2);
     return 0;
 }

@@ -37,6 +37,7 @@ class StudioWindow : public MainWindow {
         set_asking(Asking::No);
         resize(size);
         show();
+        QTest::qWait(1);  // the docks take their places
     }
 
     /// The control of that name in the page that is shown, or anywhere.

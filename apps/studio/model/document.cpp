@@ -97,8 +97,10 @@ void Document::open(const QString& path) {
 }
 
 void Document::save(const QString& path) {
+    StudioSettings saved = settings_;
+    for (const auto& look : looks_) look(saved);
     io::AtomicFile file(file_name(path));
-    file.write(session_text(settings_));
+    file.write(session_text(saved));
     file.commit();
     undo_.setClean();
     set_path(path);

@@ -8,6 +8,7 @@
 #include <QUndoStack>
 
 #include <functional>
+#include <vector>
 
 namespace asperity::studio {
 
@@ -33,6 +34,12 @@ class Document : public QObject {
     /// The same for a session that was lost unsaved; `path` as it was, `modified` it is.
     void restore(const StudioSettings& settings, const QString& path);
 
+    /// `look` puts in what only the windows know, such as where cameras stand, before a session is
+    /// saved.
+    void before_saving(std::function<void(StudioSettings&)> look) {
+        looks_.push_back(std::move(look));
+    }
+
     QUndoStack& undo_stack() { return undo_; }
 
     // Sessions. Throw Error(InvalidInput | InputOutput) and leave all as it was.
@@ -54,6 +61,7 @@ class Document : public QObject {
 
     StudioSettings settings_;
     StudioSettings told_;  ///< as the listeners of `changed` know them
+    std::vector<std::function<void(StudioSettings&)>> looks_;
     QUndoStack undo_;
     QString path_;
 };

@@ -15,7 +15,7 @@
 namespace asperity::studio {
 
 /// Radius of the dome in the world of the surface scene, about the origin.
-inline constexpr double kDomeRadius = 6;
+inline constexpr double kDomeRadius = 3.5;
 
 /// Where a ray of the world meets the far side of the sphere that the dome is half of: the
 /// direction from the middle, y up. The near side is open: an eye outside looks in. None when the

@@ -20,6 +20,8 @@ class FramePacer {
     /// A picture of this size took that long. Slower than thought counts at once; faster only
     /// bit by bit, so that the size does not flutter.
     void took(QSize size, double seconds);
+    /// Whether any picture told of its time.
+    bool knows() const { return seconds_per_pixel_ > 0; }
 
   private:
     double seconds_per_pixel_ = 0;  ///< 0: nothing is known yet

@@ -12,6 +12,10 @@ namespace {
 
 /// Paths looked at in search of those into one cell: a second or a few.
 constexpr std::uint64_t kMostTried = 4'000'000;
+/// And so many before something of them is shown: a few hundredths of a second; then so many times
+/// more.
+constexpr std::uint64_t kFirstTried = 1U << 15;
+constexpr std::uint64_t kTimesMore = 4;
 
 /// The tracer of the latest surface: most wishes are about the same one. For one thread at a time.
 class TracerAtHand {
@@ -29,10 +33,12 @@ class TracerAtHand {
     std::optional<Tracer> tracer_;
 };
 
-std::vector<LightPath> find_paths(const LightSeen::Wish& wish, const Tracer& tracer, Run& run) {
+/// Those among the first `tried`, if the wish is about a cell.
+std::vector<LightPath> find_paths(const LightSeen::Wish& wish, const Tracer& tracer,
+                                  std::uint64_t tried, Run& run) {
     if (!wish.cell) return sample_light_paths(tracer, wish.experiment, wish.layer, wish.count, run);
     return paths_into_cells(tracer, wish.experiment, wish.layer, std::span(&*wish.cell, 1),
-                            wish.count, kMostTried, run)
+                            wish.count, tried, run)
         .paths;
 }
 
@@ -46,8 +52,16 @@ class LightSeen::Work {
         : seen_(seen), background_(&seen, [this](const QString&) { forget(); }) {}
 
     void look(const Wish& wish) {
-        background_.start([this, wish, tracer = tracer_](Run& run, const Background::Post&) {
-            auto found = find_paths(wish, tracer->of(wish.surface, run.threads()), run);
+        background_.start([this, wish, tracer = tracer_](Run& run, const Background::Post& post) {
+            const Tracer& at_hand = tracer->of(wish.surface, run.threads());
+            // The first answer comes at once, and fills in
+            for (std::uint64_t tried = kFirstTried; wish.cell && tried < kMostTried;
+                 tried *= kTimesMore) {
+                const auto some = find_paths(wish, at_hand, tried, run);
+                if (some.size() >= wish.count || run.stop_requested()) break;
+                if (!some.empty()) post([this, wish, some] { show(wish, some); });
+            }
+            auto found = find_paths(wish, at_hand, kMostTried, run);
             return [this, wish, found = std::move(found)] { show(wish, found); };
         });
     }

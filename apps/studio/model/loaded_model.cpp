@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loaded_model.h"
 
+#include <asperity/core/error.h>
 #include <asperity/formats/models/model_reader.h>
 #include <asperity/render/builtin_models.h>
 
+#include <QFileInfo>
 #include <QStringList>
 
 #include <utility>
@@ -24,7 +26,15 @@ namespace {
 /// Reads or makes a model as the command line does.
 std::shared_ptr<const Model> fetch(const std::string& name, QStringList& remarks) {
     if (is_builtin_model(name)) return std::make_shared<Model>(make_builtin_model(name));
-    if (!io::is_model_file(name)) make_builtin_model(name);  // says which names there are
+    if (!io::is_model_file(name)) {
+        const QFileInfo file(QString::fromStdString(name));
+        if (!file.exists() && file.suffix().isEmpty() && name.find('/') == std::string::npos)
+            make_builtin_model(name);  // says which names there are
+        throw Error(ErrorCode::InvalidInput,
+                    file.exists() ? "is no model: .obj, .ply, .stl, .gltf, .glb and .3ds are read"
+                                  : "there is no such file",
+                    name);
+    }
     io::ModelFile file = io::read_model(name);
     if (file.dropped_triangles > 0) {
         remarks << QStringLiteral(

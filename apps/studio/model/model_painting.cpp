@@ -2,12 +2,14 @@
 #include "model_painting.h"
 
 #include "backdrop.h"
+#include "denoise.h"
 
 #include <asperity/core/error.h>
 #include <asperity/core/version.h>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -20,6 +22,8 @@ constexpr std::uint32_t kMostSamples = 1024;
 constexpr double kCleanEnough = 0.005;
 /// The noise is looked at from so many samples on, and then whenever they grew by an eighth.
 constexpr std::uint32_t kFirstLook = 16;
+/// From so many samples on the film is shown as it is.
+constexpr std::uint32_t kMostFiltered = 256;
 
 Renderer begin(ModelSight sight, const Camera& camera, QSize size) {
     RenderSettings settings;
@@ -37,7 +41,10 @@ class ModelPainting final : public Painting {
   public:
     ModelPainting(const ModelSight& sight, const Camera& camera, QSize size,
                   std::shared_ptr<Negative> negative)
-        : negative_(std::move(negative)) {
+        : negative_(std::move(negative)),
+          model_(sight.scene.model),
+          split_(sight.scene.split ? sight.scene.split->position : 1),
+          noisy_(is_noisy(sight)) {
         const std::lock_guard lock(negative_->mutex_);
         shot_ = std::make_shared<Negative::Shot>(Negative::Shot{
             begin(sight, camera, size), camera, sight.number, negative_->table(sight.tone)});
@@ -46,18 +53,16 @@ class ModelPainting final : public Painting {
 
     bool pass(Run& run) override {
         using namespace std::chrono_literals;
-        threads_ = run.threads();
         // Whoever asks for the film goes first
         while (negative_->asking_ > 0 && !run.stop_requested()) std::this_thread::sleep_for(1ms);
         const std::lock_guard lock(negative_->mutex_);
         if (is_clean() || !shot_->renderer.render_pass(run)) return false;
         look_at_noise();
-        return true;
+        develop(run);
+        return !run.stop_requested();
     }
 
-    QImage image() const override {
-        return shot_->table->develop(shot_->renderer.film(), threads_);
-    }
+    QImage image() const override { return image_; }
 
   private:
     bool is_clean() const {
@@ -71,9 +76,41 @@ class ModelPainting final : public Painting {
         next_look_ = samples + (samples + 7) / 8;
     }
 
+    /// Light that is drawn by lot has noise; a point light that meets a facet once has none.
+    static bool is_noisy(const ModelSight& sight) {
+        const auto& lights = sight.scene.lights;
+        const bool by_lot = std::any_of(lights.begin(), lights.end(),
+                                        [](const auto& light) { return !light->is_delta(); });
+        return by_lot || sight.depth > 1;
+    }
+
+    /// The film as it is shown. To take the noise out costs as much as a pass or two, so of many
+    /// passes only some are shown, and none of those that are clean by themselves are touched.
+    void develop(Run& run) {
+        const Film& film = shot_->renderer.film();
+        const std::uint32_t samples = shot_->renderer.samples();
+        if (!noisy_ || samples > kMostFiltered) {
+            image_ = shot_->table->develop(film, run.threads());
+            return;
+        }
+        if (samples < next_shown_) return;
+        next_shown_ = samples + std::max(1U, samples / 3);
+        if (guides_.width == 0)
+            guides_ =
+                look_for_guides(*model_, shot_->camera, film.width(), film.height(), split_, run);
+        const std::vector<float> clean = denoised(film, guides_, run);
+        if (run.stop_requested()) return;
+        image_ = shot_->table->develop(clean, film.width(), film.height(), run.threads());
+    }
+
     std::shared_ptr<Negative> negative_;
     std::shared_ptr<Negative::Shot> shot_;
-    int threads_ = 1;
+    std::shared_ptr<const TracedModel> model_;
+    double split_;
+    bool noisy_;
+    PixelGuides guides_;
+    QImage image_;
+    std::uint32_t next_shown_ = 1;
     std::uint32_t next_look_ = kFirstLook;
 };
 

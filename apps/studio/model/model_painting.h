@@ -35,9 +35,9 @@ class Negative {
     /// Whether this is a picture of that sight, camera and size, with a first pass done.
     bool shows(std::uint64_t sight, const Camera& camera, QSize size);
 
-    /// With what came out added to the provenance: size, seed, samples, noise. The PNG is
-    /// what the painting shows. Throw Error(InputOutput, path); Error(Usage) when nothing is
-    /// exposed.
+    /// With what came out added to the provenance: size, seed, samples, noise. The PNG is what the
+    /// painting shows, but nothing is taken out of its noise. Throw Error(InputOutput, path);
+    /// Error(Usage) when nothing is exposed.
     void save_png(const std::string& path, io::Provenance provenance);
     void save_exr(const std::string& path, io::Provenance provenance);
 
@@ -67,7 +67,8 @@ class Negative {
 };
 
 /// Paints a sight through a camera: one sample a pixel, then better and better, up to 1024 samples
-/// or a noise of 0.5 %. Equal sights, cameras and sizes give equal pictures.
+/// or a noise of 0.5 %. What is seen of fewer than 256 samples has its noise taken out, see
+/// denoise.h; the film has not. Equal sights, cameras and sizes give equal pictures.
 BeginPainting paint_model(const ModelSight& sight, const Camera& camera,
                           std::shared_ptr<Negative> negative);
 

@@ -62,7 +62,11 @@ ModelStage::ModelStage(Workbench& workbench, QObject* parent)
     connect(&brdfs_, &WornBrdfs::told, this, &ModelStage::tell);
     connect(&model_, &LoadedModel::failed, &workbench, &Workbench::complaint);
     connect(&lights_, &SceneLights::failed, &workbench, &Workbench::complaint);
-    connect(&brdfs_, &WornBrdfs::failed, &workbench, &Workbench::complaint);
+    // What a BRDF lacks matters where it is worn; there message() goes on saying so
+    connect(&brdfs_, &WornBrdfs::failed, this, [this](const QString& sentence) {
+        if (workbench_.settings().scene == SceneKind::Model && model_.traced() != nullptr)
+            emit workbench_.complaint(sentence);
+    });
 
     load_from_settings();
     lights_.shine(view());

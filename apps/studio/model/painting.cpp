@@ -120,7 +120,7 @@ class Painter::Work {
             more = painting->pass(run) && !wish.moving;
             if (run.stop_requested()) return;
             const double seconds = now() - began;
-            if (wish.moving) pacer_.took(size, seconds);
+            if (wish.moving || (passes == 1 && !pacer_.knows())) pacer_.took(size, seconds);
             deliver({painting->image(), wish.full, passes, wish.moving, wish.number, seconds});
         }
     }

@@ -51,6 +51,9 @@ void tell_lights(const ModelView& view, io::Provenance& told) {
             told.emplace_back("sun-elevation", fmt::format("{}", view.sun_elevation_deg));
             told.emplace_back("sun-azimuth", fmt::format("{}", view.sun_azimuth_deg));
             break;
+        case LightKind::Soft:
+            told.emplace_back("light", "soft sky of the studio");
+            break;
         case LightKind::Environment:
             told.emplace_back("light", "env:" + view.environment);
             told.emplace_back("light-rotation", fmt::format("{}", view.environment_rotation_deg));

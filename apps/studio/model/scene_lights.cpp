@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_lights.h"
 
+#include "soft_sky.h"
+
 #include <asperity/core/error.h>
 #include <asperity/formats/images/image_reader.h>
 #include <asperity/render/environment_map.h>
@@ -40,7 +42,7 @@ SceneLights::Wish SceneLights::wish_of(const ModelView& view) {
     } else if (view.light == LightKind::Sky) {
         wish.sun_elevation_deg = view.sun_elevation_deg;
         wish.sun_azimuth_deg = view.sun_azimuth_deg;
-    } else {
+    } else if (view.light == LightKind::Environment) {
         wish.environment = view.environment;
         wish.rotation_deg = view.environment_rotation_deg;
     }
@@ -68,6 +70,10 @@ void SceneLights::make(const Wish& wish) {
             const Lights lights = sky(wish.sun_elevation_deg, wish.sun_azimuth_deg);
             return [this, lights] { take(lights, true); };
         });
+    } else if (wish.kind == LightKind::Soft) {
+        background_.cancel();
+        if (soft_ == nullptr) soft_ = make_soft_sky();
+        take({soft_}, true);
     } else if (wish.environment.empty()) {
         background_.cancel();
         trouble_ = tr("choose an environment: a latitude-longitude picture, .exr or .hdr");

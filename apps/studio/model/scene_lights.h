@@ -64,6 +64,7 @@ class SceneLights : public QObject {
     Background background_;
     std::optional<Wish> wish_;
     Lights lights_;
+    std::shared_ptr<const Light> soft_;
     bool seen_ = false;
     Surroundings surroundings_;
     QString trouble_;

@@ -4,11 +4,13 @@
 #include <asperity/core/vec.h>
 #include <asperity/gonio/experiment.h>
 #include <asperity/pictures/pictures.h>
+#include <asperity/render/camera.h>
 #include <asperity/render/rgb.h>
 #include <asperity/render/tonemap.h>
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -22,6 +24,13 @@ enum class SceneKind { Surface, Model };
 /// Thesis table 2.1; render/camera_controller.h has what they do.
 enum class CameraType { Orbiter, FirstPerson, SixDof };
 
+/// Where a camera stood when the session was saved: position, forward, up, fov_deg; empty: where
+/// cameras begin. Moving a camera changes no setting and is no step of the history.
+using KeptCamera = std::vector<double>;
+KeptCamera kept(const Camera& camera);
+/// None unless it is one that can be looked through.
+std::optional<Camera> camera_of(const KeptCamera& kept);
+
 /// How the microfacets surface is shown.
 enum class SurfaceShading {
     Normals,  ///< the thesis' look: red = |n_x|, green = |n_z|, blue = |n_y|
@@ -31,10 +40,13 @@ enum class SurfaceShading {
 /// The scene "Microfacets Surface".
 struct SurfaceView {
     CameraType camera_type = CameraType::Orbiter;
+    KeptCamera camera;
     int current_layer = 15;  ///< Current Layer: whose dome, beam and paths are shown
     SurfaceShading shading = SurfaceShading::Normals;
-    bool dome = true;    ///< the sky-map of the current layer, around the surface
-    bool beam = true;    ///< the incident beam as a wireframe (figures 2.10-2.12)
+    bool whole_dome = false;  ///< cameras begin outside the dome, all of it in view, not within
+    bool lobe = false;        ///< the layer as a solid over the surface
+    bool dome = true;         ///< the sky-map of the current layer, around the surface
+    bool beam = true;         ///< the incident beam as a wireframe (figures 2.10-2.12)
     bool paths = false;  ///< sample paths of light; those into a selected cell are shown anyway
     int path_count = 200;
     io::SkyMapSettings sky_map{io::ColourMap::ThesisRed, io::Scale::Linear};  ///< of the dome
@@ -56,11 +68,12 @@ struct BrdfSettings {
     Rgb diffuse{0, 0, 0};  ///< Simulated: its Albedo, each 0 .. 1
 };
 
-enum class LightKind { Point, Sky, Environment };
+enum class LightKind { Point, Sky, Environment, Soft };
 
 /// The scene "Model".
 struct ModelView {
     CameraType camera_type = CameraType::Orbiter;
+    KeptCamera camera;
     std::string model;  ///< a built-in model's name or a file; empty: none loaded yet
     bool floor = false;
     bool brdf_runs = false;  ///< Start BRDF / Stop BRDF: stopped, the model is a black shape
@@ -105,7 +118,7 @@ struct PlotView {
     }
 };
 
-/// All that a session is made of and undo can bring back. Cameras are no settings.
+/// All that a session is made of and undo can bring back.
 struct StudioSettings {
     SceneKind scene = SceneKind::Surface;
     Experiment experiment;  ///< Surface, Texture and Simulation Settings

@@ -41,10 +41,11 @@ constexpr Names<io::Projection, 2> kProjections = {{
     {"sky-map", io::Projection::SkyMap},
     {"disk", io::Projection::Disk},
 }};
-constexpr Names<LightKind, 3> kLights = {{
+constexpr Names<LightKind, 4> kLights = {{
     {"point", LightKind::Point},
     {"sky", LightKind::Sky},
     {"environment", LightKind::Environment},
+    {"soft", LightKind::Soft},
 }};
 constexpr Names<ToneCurve, 3> kToneCurves = {{
     {"none", ToneCurve::None},
@@ -102,6 +103,24 @@ class Group {
                 return std::vector{c.r, c.g, c.b};
             });
     }
+    /// Ten numbers or none, see KeptCamera.
+    template <typename Field>
+    void camera(const char* name, Field field) {
+        Param<S> row;
+        row.info = {.name = name,
+                    .group = heading_,
+                    .range = kAnyNumber,
+                    .absent = "home",
+                    .type = ParamType::List};
+        row.get = [field](const S& s) { return field(s); };
+        row.set = [field, info = row.info](S& s, const ParamValue& v) {
+            const auto& list = std::get<std::vector<double>>(v);
+            if (!list.empty() && !camera_of(list))
+                refuse(info, in_quotes(format(info, v)) + " is no camera");
+            field(s) = list;
+        };
+        table_.push_back(std::move(row));
+    }
     template <typename Field>
     void point(const char* name, Field field) {
         three(
@@ -139,8 +158,11 @@ void add_surface_scene(ParamTable<S>& keys) {
     const auto of = [](auto... steps) { return at(&S::surface_view, steps...); };
     const auto of_map = [&](auto step) { return of(&SurfaceView::sky_map, step); };
     group.choice("surface-camera", of(&SurfaceView::camera_type), kCameras);
+    group.camera("surface-eye", of(&SurfaceView::camera));
     group.value("current-layer", of(&SurfaceView::current_layer), {1, kMostLayers});
     group.choice("shading", of(&SurfaceView::shading), kShadings);
+    group.value("whole-dome", of(&SurfaceView::whole_dome));
+    group.value("lobe", of(&SurfaceView::lobe));
     group.value("dome", of(&SurfaceView::dome));
     group.value("beam", of(&SurfaceView::beam));
     group.value("paths", of(&SurfaceView::paths));
@@ -157,6 +179,7 @@ void add_model_scene(ParamTable<S>& keys) {
     Group group(keys, "Model");
     const auto of = [](auto... steps) { return at(&S::model_view, steps...); };
     group.choice("model-camera", of(&ModelView::camera_type), kCameras);
+    group.camera("model-eye", of(&ModelView::camera));
     group.value("model", of(&ModelView::model));
     group.value("floor", of(&ModelView::floor));
     group.value("result", of(&ModelView::result));

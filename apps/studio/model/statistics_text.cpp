@@ -24,8 +24,10 @@ RayCounts rays_of(const Drawing& drawing) {
 
 QString statistics_text(const StudioStatistics& s) {
     const GeometryCounts& g = s.geometry;
-    std::string text = fmt::format("Frame Stats: {:.0f} FPS ({:.2f} ms/frame)\n\n",
-                                   s.frames_per_second, s.milliseconds_per_frame);
+    std::string text = s.samples > 0 ? fmt::format("Frame Stats: refined, {} sample{}\n\n",
+                                                   s.samples, s.samples == 1 ? "" : "s")
+                                     : fmt::format("Frame Stats: {:.0f} FPS ({:.2f} ms/frame)\n\n",
+                                                   s.frames_per_second, s.milliseconds_per_frame);
     text += "Geometry stats:\n";
     text += fmt::format("  Mesh count: {}\n", g.meshes);
     text += fmt::format("  Mesh instance count (total): {}\n", g.instances);

@@ -35,6 +35,7 @@ RayCounts rays_of(const Drawing& drawing);
 /// The thesis' Statistics (figures 2.6 - 2.8).
 struct StudioStatistics {
     double frames_per_second = 0, milliseconds_per_frame = 0;
+    int samples = 0;  ///< of each pixel of a view at rest; 0: it moves
     GeometryCounts geometry;
     int resolution = 0;  ///< of the environment map: Texture Resolution
     RayCounts rays;

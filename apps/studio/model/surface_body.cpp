@@ -53,7 +53,8 @@ SurfaceBody::SurfaceBody(const Heightfield& surface)
 }
 
 SurfaceBody::Pixel SurfaceBody::colour(const WorldRay& ray, const PatchHit& hit,
-                                       SurfaceShading shading) const {
+                                       SurfaceShading shading,
+                                       const std::optional<Vec3>& metal) const {
     // The matter itself stays in the background: slate, lighter towards a viewer in front of it.
     if (hit.part != PatchPart::Facet) {
         const double facing = std::abs(dot(hit.normal, ray.direction));
@@ -62,12 +63,12 @@ SurfaceBody::Pixel SurfaceBody::colour(const WorldRay& ray, const PatchHit& hit,
     const Vec3 n = hit.normal;
     if (shading == SurfaceShading::Normals)
         return pixel_of({std::abs(n.x), std::abs(n.z), std::abs(n.y)});
-    return lit(ray, hit);
+    return metal ? polished(ray, hit, *metal) : clay(ray, hit);
 }
 
 /// A relief in the light of a low warm sun and a wide cool sky: clay, cool in the hollows, warm on
 /// the heights, with the soft gloss of its facets.
-SurfaceBody::Pixel SurfaceBody::lit(const WorldRay& ray, const PatchHit& hit) const {
+SurfaceBody::Pixel SurfaceBody::clay(const WorldRay& ray, const PatchHit& hit) const {
     const Vec3 sun = normalize({-0.35, -0.80, 0.62}), fill = normalize({0.60, 0.55, 0.40});
     const Vec3 n = normalize({relief_ * hit.normal.x, relief_ * hit.normal.y, hit.normal.z});
     const double height = ray.origin.z + hit.distance * ray.direction.z;
@@ -84,6 +85,30 @@ SurfaceBody::Pixel SurfaceBody::lit(const WorldRay& ray, const PatchHit& hit) co
                        sky * Vec3{0.24, 0.28, 0.36};
     return pixel_of(Vec3{clay.x * light.x, clay.y * light.y, clay.z * light.z} +
                     (0.22 * gloss) * Vec3{1.0, 0.95, 0.85});
+}
+
+/// Metal mirrors a wide sky over dark land, the glow of a sun low behind the eye's shoulder, and is
+/// darker in the hollows.
+SurfaceBody::Pixel SurfaceBody::polished(const WorldRay& ray, const PatchHit& hit,
+                                         Vec3 metal) const {
+    const Vec3 n = normalize({relief_ * hit.normal.x, relief_ * hit.normal.y, hit.normal.z});
+    const Vec3 mirrored = ray.direction - (2 * dot(ray.direction, n)) * n;
+    const Vec3 sun = normalize({0.35, -0.55, 0.75});
+    const double height = ray.origin.z + hit.distance * ray.direction.z;
+    const double level =
+        spread_ > 0 ? std::clamp(0.5 + (height - mean_) / (4 * spread_), 0.0, 1.0) : 0.5;
+
+    const double up = std::clamp(0.5 + 0.75 * mirrored.z, 0.0, 1.0);
+    const double sky = 0.06 + 0.50 * up * up;
+    const double glow =
+        1.1 * std::pow(std::max(0.0, dot(mirrored, sun)), 10.0) + 0.35 * std::max(0.0, dot(n, sun));
+    const double light = (sky + glow) * (0.55 + 0.55 * level);
+    const auto shown = [light](double reflectance) {
+        // Deeper than one reflection: polished metal is seen in its own light
+        const double c = light * std::pow(reflectance, 1.7);
+        return std::pow(c / (1 + 0.25 * c), 1 / 2.2);
+    };
+    return pixel_of({shown(metal.x), shown(metal.y), shown(metal.z)});
 }
 
 bool SurfaceBody::hides(Vec3 eye, Vec3 point) const {

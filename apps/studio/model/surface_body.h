@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
 namespace asperity::studio {
 
@@ -21,15 +22,18 @@ class SurfaceBody {
     const HeightfieldView& view() const { return *view_; }
     const SurfaceFrame& frame() const { return frame_; }
 
-    /// Of what a ray on the surface sees; hit.part is not None.
-    Pixel colour(const WorldRay& ray, const PatchHit& hit, SurfaceShading shading) const;
+    /// Of what a ray on the surface sees; hit.part is not None. A relief is of clay, or of metal
+    /// whose reflectance along the normal is `metal`, linear sRGB.
+    Pixel colour(const WorldRay& ray, const PatchHit& hit, SurfaceShading shading,
+                 const std::optional<Vec3>& metal = std::nullopt) const;
 
     /// Whether matter lies between an eye and a point, both in the world. A point on a facet that
     /// the eye sees is not hidden.
     bool hides(Vec3 eye, Vec3 point) const;
 
   private:
-    Pixel lit(const WorldRay& ray, const PatchHit& hit) const;
+    Pixel clay(const WorldRay& ray, const PatchHit& hit) const;
+    Pixel polished(const WorldRay& ray, const PatchHit& hit, Vec3 metal) const;
 
     std::unique_ptr<HeightfieldView> view_;
     SurfaceFrame frame_;

@@ -14,6 +14,7 @@ using Pixel = SurfaceBody::Pixel;
 
 constexpr Pixel kSelected = {255, 245, 190};
 constexpr float kSelectedShare = 0.85F;
+constexpr float kLobeClear = 0.1F;  // share of what lies behind the lobe that shines through
 
 /// The dark round the scene where no layer is shown, and below the horizon: black but for a breath
 /// of blue at the horizon. `direction` in the world, unit length.
@@ -40,6 +41,7 @@ class SurfacePainting : public Painting {
     bool pass(Run& run) override {
         body_ = picture_.body ? &picture_.body->get() : nullptr;
         dome_ = picture_.dome ? &picture_.dome->get() : nullptr;
+        lobe_ = picture_.lobe ? &picture_.lobe->get() : nullptr;
         const auto [x, y] = place_of_sample(passes_);
         // Rows are written by several threads: the picture must be ours alone by now.
         bits_ = image_.bits();
@@ -50,16 +52,64 @@ class SurfacePainting : public Painting {
     QImage image() const override { return image_; }
 
   private:
+    static constexpr double kFarAway = 1e30;
+
+    static WorldRay to_world(const SurfaceFrame& frame, const WorldRay& ray) {
+        return {SurfaceFrame::direction_to_world(frame.scale * (ray.origin - frame.middle)),
+                SurfaceFrame::direction_to_world(ray.direction)};
+    }
+
+    /// What the pixels of a row see of the lobe.
+    struct LobeRow {
+        const Lobe* lobe = nullptr;
+        std::vector<WorldRay> rays;          ///< those that may meet it
+        std::vector<Hit> hits;               ///< of these
+        std::vector<std::int32_t> of_pixel;  ///< which of them; -1: none
+
+        /// `behind` lies at that distance from the eye; the solid lets a little of it through.
+        Pixel over(std::size_t pixel, double distance, const Pixel& behind) const {
+            if (of_pixel.empty() || of_pixel[pixel] < 0) return behind;
+            const auto at = static_cast<std::size_t>(of_pixel[pixel]);
+            if (!hits[at].found() || static_cast<double>(hits[at].distance) > distance)
+                return behind;
+            Pixel colour = lobe->colour(rays[at], hits[at]);
+            for (std::size_t c = 0; c < 3; ++c) colour[c] += kLobeClear * (behind[c] - colour[c]);
+            return colour;
+        }
+    };
+
+    template <class RayOf>
+    LobeRow look_at_lobe(std::size_t width, const RayOf& ray_of) const {
+        LobeRow row;
+        if (lobe_ == nullptr) return row;
+        row.lobe = lobe_;
+        row.of_pixel.assign(width, -1);
+        for (std::size_t k = 0; k < width; ++k) {
+            const WorldRay ray = ray_of(k);
+            const double middle = -dot(ray.origin, ray.direction);
+            const double passes = dot(ray.origin, ray.origin) - middle * middle;
+            if (passes > Lobe::kLobeRadius * Lobe::kLobeRadius) continue;
+            row.of_pixel[k] = static_cast<std::int32_t>(row.rays.size());
+            row.rays.push_back(ray);
+        }
+        row.hits.resize(row.rays.size());
+        if (!row.rays.empty()) lobe_->look(row.rays, row.hits);
+        return row;
+    }
+
     bool paint_with_body(double x, double y, Run& run) {
         const SurfaceFrame& frame = body_->frame();
         return look_at_heightfield(
             body_->view(), frame.to_surface(camera_), image_.width(), image_.height(), x, y, run,
             [&](int row, std::span<const WorldRay> rays, std::span<const PatchHit> hits) {
+                const LobeRow lobe = look_at_lobe(
+                    rays.size(), [&](std::size_t k) { return to_world(frame, rays[k]); });
                 add_row(row, [&](std::size_t k) {
-                    if (hits[k].part != PatchPart::None) return colour_of(rays[k], hits[k]);
-                    const Vec3 eye = frame.scale * (rays[k].origin - frame.middle);
-                    return surroundings({SurfaceFrame::direction_to_world(eye),
-                                         SurfaceFrame::direction_to_world(rays[k].direction)});
+                    const bool on_surface = hits[k].part != PatchPart::None;
+                    const Pixel behind = on_surface ? colour_of(rays[k], hits[k])
+                                                    : surroundings(to_world(frame, rays[k]));
+                    const double distance = on_surface ? frame.scale * hits[k].distance : kFarAway;
+                    return lobe.over(k, distance, behind);
                 });
             });
     }
@@ -68,9 +118,12 @@ class SurfacePainting : public Painting {
         const PixelRays rays(camera_, image_.width(), image_.height());
         const auto row = [&](std::size_t k) {
             if (run.stop_requested()) return;
+            const auto ray = [&](std::size_t column) {
+                return rays.at(static_cast<double>(column) + x, static_cast<double>(k) + y);
+            };
+            const LobeRow lobe = look_at_lobe(static_cast<std::size_t>(image_.width()), ray);
             add_row(static_cast<int>(k), [&](std::size_t column) {
-                return surroundings(
-                    rays.at(static_cast<double>(column) + x, static_cast<double>(k) + y));
+                return lobe.over(column, kFarAway, surroundings(ray(column)));
             });
         };
         parallel_for(static_cast<std::size_t>(image_.height()), run.threads(), row);
@@ -78,7 +131,7 @@ class SurfacePainting : public Painting {
     }
 
     Pixel colour_of(const WorldRay& ray, const PatchHit& hit) const {
-        Pixel colour = body_->colour(ray, hit, picture_.shading);
+        Pixel colour = body_->colour(ray, hit, picture_.shading, picture_.metal);
         if (hit.part == PatchPart::Facet && picture_.selected && !picture_.selected->empty() &&
             picture_.selected->contains({hit.i, hit.j, hit.triangle}))
             for (std::size_t c = 0; c < 3; ++c)
@@ -118,6 +171,7 @@ class SurfacePainting : public Painting {
     int passes_ = 0;
     const SurfaceBody* body_ = nullptr;
     const DomePicture* dome_ = nullptr;
+    const Lobe* lobe_ = nullptr;
     uchar* bits_ = nullptr;
 };
 

@@ -3,6 +3,7 @@
 
 #include "dome.h"
 #include "lazy.h"
+#include "lobe.h"
 #include "painting.h"
 #include "surface_body.h"
 
@@ -40,6 +41,8 @@ struct SurfacePicture {
     std::shared_ptr<const Lazy<DomePicture>> dome;
     SurfaceShading shading = SurfaceShading::Normals;
     std::shared_ptr<const FacetSet> selected;  ///< facets that stand out
+    std::optional<Vec3> metal = {};            ///< of the relief, see SurfaceBody::colour
+    std::shared_ptr<const Lazy<Lobe>> lobe = {};
 };
 
 /// A painting of it for a camera of the world: the first pass has one sample in the middle of each

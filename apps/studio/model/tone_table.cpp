@@ -57,15 +57,32 @@ std::uint8_t ToneTable::level(float radiance) const {
 }
 
 QImage ToneTable::develop(const Film& film, int threads) const {
-    QImage image(film.width(), film.height(), QImage::Format_RGB32);
+    return develop_rows(film.width(), film.height(), threads, [&film](int x, int y) {
+        const Rgb mean = film.at(x, y).mean;
+        return std::array<float, 3>{static_cast<float>(mean.r), static_cast<float>(mean.g),
+                                    static_cast<float>(mean.b)};
+    });
+}
+
+QImage ToneTable::develop(const std::vector<float>& rgb, int width, int height, int threads) const {
+    return develop_rows(width, height, threads, [&](int x, int y) {
+        const float* pixel =
+            rgb.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                              static_cast<std::size_t>(x));
+        return std::array<float, 3>{pixel[0], pixel[1], pixel[2]};
+    });
+}
+
+template <class RgbOf>
+QImage ToneTable::develop_rows(int width, int height, int threads, const RgbOf& rgb_of) const {
+    QImage image(width, height, QImage::Format_RGB32);
     uchar* const bits = image.bits();  // once: it may copy, which threads must not do
     const std::size_t row = static_cast<std::size_t>(image.bytesPerLine());
-    parallel_for(static_cast<std::size_t>(film.height()), threads, [&](std::size_t y) {
+    parallel_for(static_cast<std::size_t>(height), threads, [&](std::size_t y) {
         auto* const line = reinterpret_cast<QRgb*>(bits + y * row);
-        for (int x = 0; x < film.width(); ++x) {
-            const Rgb mean = film.at(x, static_cast<int>(y)).mean;
-            line[x] = qRgb(level(static_cast<float>(mean.r)), level(static_cast<float>(mean.g)),
-                           level(static_cast<float>(mean.b)));
+        for (int x = 0; x < width; ++x) {
+            const std::array<float, 3> rgb = rgb_of(x, static_cast<int>(y));
+            line[x] = qRgb(level(rgb[0]), level(rgb[1]), level(rgb[2]));
         }
     });
     return image;

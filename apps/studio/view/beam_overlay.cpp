@@ -9,17 +9,21 @@ namespace {
 
 const QColor kRed(255, 48, 40, 225), kGone(255, 48, 40, 0);
 
-void paint_box(const SceneLines& lines, const Beam& beam, Vec3 shift, double opacity) {
-    QColor red = kRed;
-    red.setAlphaF(static_cast<float>(opacity * static_cast<double>(kRed.alphaF())));
+constexpr double kThin = 1;  // [pixels]
+
+void paint_window(const SceneLines& lines, const Beam& beam, Vec3 shift, const QColor& red) {
+    const std::array<Vec3, 4> window = beam.window();
+    for (std::size_t k = 0; k < 4; ++k)
+        lines.line(window[k] + shift, window[(k + 1) % 4] + shift, SceneLines::Stroke(red, kThin));
+}
+
+void paint_box(const SceneLines& lines, const Beam& beam) {
+    paint_window(lines, beam, {}, kRed);
     const std::array<Vec3, 4> window = beam.window();
     const Vec3 down = -(Beam::kReach + Beam::kDepth) * beam.to_light;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const Vec3 corner = window[k] + shift;
-        lines.line(corner, window[(k + 1) % 4] + shift, SceneLines::Stroke(red));
-        lines.line(corner, corner + down, SceneLines::Stroke(red, kGone));
-    }
-    lines.line(window[0] + shift, window[2] + shift, SceneLines::Stroke(red, 0.8));
+    for (const Vec3 corner : window)
+        lines.line(corner, corner + down, SceneLines::Stroke(kRed, kGone, kThin));
+    lines.line(window[0], window[2], SceneLines::Stroke(kRed, 0.7));
 }
 
 /// Along the middle of the beam, the way the light goes.
@@ -54,9 +58,11 @@ void paint_beam(const SceneLines& lines, const Beam& beam, double jitter) {
     constexpr std::array<std::array<double, 2>, 4> kShifts = {
         {{0.05, 0.03}, {-0.04, 0.05}, {-0.05, -0.04}, {0.03, -0.05}}};
     const auto copies = static_cast<std::size_t>(std::clamp(std::ceil(jitter) - 1, 0.0, 4.0));
+    QColor faint = kRed;
+    faint.setAlphaF(0.25F);
     for (std::size_t k = 0; k < copies; ++k)
-        paint_box(lines, beam, kShifts[k][0] * beam.right + kShifts[k][1] * beam.up, 0.3);
-    paint_box(lines, beam, {}, 1);
+        paint_window(lines, beam, kShifts[k][0] * beam.right + kShifts[k][1] * beam.up, faint);
+    paint_box(lines, beam);
     paint_arrow(lines, beam);
 }
 

@@ -14,7 +14,7 @@ namespace asperity::studio {
 /// angle, as that of the thesis' light camera does.
 struct Beam {
     static constexpr double kReach = 2.2;  ///< of the window from the middle of the tile
-    static constexpr double kDepth = 1.4;  ///< how far the box goes on below the tile
+    static constexpr double kDepth = 0.6;  ///< how far the box goes on below the tile
 
     Vec3 to_light;   ///< unit vector in the world
     Vec3 right, up;  ///< half sides of the window
@@ -26,7 +26,7 @@ struct Beam {
     std::array<Vec3, 4> window() const;
 };
 
-/// Draws it in red, and for a Camera Jitter above 1 up to four faint copies beside it, far more
+/// Draws it in red, and for a Camera Jitter above 1 up to four faint copies of its window, far more
 /// apart than they are.
 void paint_beam(const SceneLines& lines, const Beam& beam, double jitter);
 

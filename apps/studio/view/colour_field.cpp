@@ -40,6 +40,7 @@ ColourField::ColourField(const QString& name, QWidget* parent)
         boxes_[c] = new NumberBox(0, 1, 3, 0.05);
         boxes_[c]->setObjectName(name + channels[c]);
         boxes_[c]->setAccessibleName(names[c]);
+        boxes_[c]->setButtonSymbols(QAbstractSpinBox::NoButtons);  // three in a narrow row
         layout->addWidget(boxes_[c], 1);
         connect(boxes_[c], &QDoubleSpinBox::valueChanged, this, [this] {
             show_colour();

@@ -20,6 +20,13 @@ QPushButton* make_button(const QString& label, const QString& tooltip) {
     return button;
 }
 
+/// Keeps its place while it is hidden: nothing beside it moves.
+void keep_place(QWidget* widget) {
+    QSizePolicy policy = widget->sizePolicy();
+    policy.setRetainSizeWhenHidden(true);
+    widget->setSizePolicy(policy);
+}
+
 }  // namespace
 
 SurfaceButtons::SurfaceButtons(Workbench& workbench, const SceneCommands& commands, QWidget* parent)
@@ -37,8 +44,13 @@ SurfaceButtons::SurfaceButtons(Workbench& workbench, const SceneCommands& comman
     QPalette colours = hint_->palette();
     colours.setColor(QPalette::WindowText, QColor("#d9822b"));
     hint_->setPalette(colours);
-    layout->addWidget(progress_);
-    layout->addWidget(hint_);
+    // Never both at a time: one place for the two
+    keep_place(progress_);
+    keep_place(hint_);
+    auto* lines = new QGridLayout;
+    lines->addWidget(progress_, 0, 0);
+    lines->addWidget(hint_, 0, 0);
+    layout->addLayout(lines);
 
     Drawing& drawing = workbench.drawing();
     connect(&workbench, &Workbench::drawing_changed, this, &SurfaceButtons::update_state);
@@ -59,6 +71,7 @@ void SurfaceButtons::add_buttons(const SceneCommands& commands) {
     auto* load_model = make_button(tr("Load Model"),
                                    tr("A model from a file: .obj, .ply, .stl, .gltf, .glb, .3ds"));
     auto* run_test = make_button(tr("Run Test"), tr("Runs the 79 checks of the thesis"));
+    keep_place(view_model_);
     view_model_->hide();
 
     auto* grid = new QGridLayout;
@@ -68,8 +81,8 @@ void SurfaceButtons::add_buttons(const SceneCommands& commands) {
     grid->addWidget(pause_, 1, 0);
     grid->addWidget(clear_, 1, 1);
     grid->addWidget(load_model, 2, 0);
-    grid->addWidget(run_test, 2, 1);
-    grid->addWidget(view_model_, 3, 0, 1, 2);
+    grid->addWidget(view_model_, 2, 1);
+    grid->addWidget(run_test, 3, 0, 1, 2);
     static_cast<QVBoxLayout*>(layout())->addLayout(grid);
 
     connect(draw_, &QPushButton::clicked, &workbench_, &Workbench::draw_to_textures);

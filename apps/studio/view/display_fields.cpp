@@ -50,6 +50,11 @@ void DisplayFields::add_light() {
             box, box->text(), [field](const StudioSettings& s) { return s.surface_view.*field; },
             [field](StudioSettings& s, bool on) { s.surface_view.*field = on; });
     };
+    add(make_check("show-lobe", tr("Lobe"),
+                   tr("The current layer as a solid over the surface: it reaches as far into each "
+                      "direction as f stands high on the colour bar; grey where f is not known "
+                      "well")),
+        &SurfaceView::lobe);
     add(make_check("show-dome", tr("Dome"), tr("The sky-map of the current layer, all around")),
         &SurfaceView::dome);
     add(make_check("show-beam", tr("Beam"), tr("The incident light as a wireframe")),

@@ -4,6 +4,7 @@
 #include "control_buttons.h"
 #include "main_window.h"
 #include "menus.h"
+#include "preferences.h"
 
 #include <QCoreApplication>
 #include <QMenu>
@@ -83,6 +84,16 @@ void add_simulation_menu(MainWindow& window) {
     menu.addSeparator();
     menu.addAction(tr("Run Test"), &window, &MainWindow::run_test)
         ->setShortcut(QKeySequence("Ctrl+T"));
+    menu.addSeparator();
+    QAction* measure = menu.addAction(tr("Measure at Start"));
+    measure->setObjectName("measure-at-start");
+    measure->setCheckable(true);
+    measure->setChecked(preferences::measure_at_start());
+    measure->setStatusTip(tr("A new session is drawn at once, without Draw To Textures"));
+    QObject::connect(measure, &QAction::triggered, &window, [&window](bool on) {
+        preferences::set_measure_at_start(on);
+        window.set_measures_at_start(on);
+    });
 }
 
 }  // namespace asperity::studio

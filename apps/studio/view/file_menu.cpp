@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "file_kinds.h"
 #include "file_questions.h"
 #include "main_window.h"
 #include "menus.h"
@@ -51,16 +52,11 @@ std::shared_ptr<const Measurement> result_of(MainWindow& window) {
 
 void add_session_commands(MainWindow& window, QMenu& menu) {
     QAction* fresh = menu.addAction(tr("New Session"), &window, [&window] {
-        window.after_saving([&window] {
-            window.workbench().stop_drawing();
-            window.workbench().drawing().clear();
-            window.workbench().document().reset({});
-        });
+        window.after_saving([&window] { window.new_session(); });
     });
     fresh->setShortcut(QKeySequence::New);
     QAction* open = menu.addAction(tr("Open..."), &window, [&window] {
-        ask_file_to_open(&window, tr("Open Session, Result, Model or Surface"),
-                         tr("Sessions (*.conf *.txt);;Results (*.asperity);;All files (*)"),
+        ask_file_to_open(&window, tr("Open Session, Result, Surface or Model"), open_filter(),
                          [&window](const QString& path) { window.open(path); });
     });
     open->setShortcut(QKeySequence::Open);

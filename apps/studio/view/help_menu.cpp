@@ -37,7 +37,8 @@ QString keys_text() {
         "<h3>Orbiter</h3>"
         "<table cellspacing='4'>"
         "<tr><td><b>Left button, drag</b></td><td>turns round the object</td></tr>"
-        "<tr><td><b>Wheel</b></td><td>nearer, farther</td></tr></table>"
+        "<tr><td><b>Wheel, pinch</b></td><td>nearer, farther</td></tr>"
+        "<tr><td><b>Arrow keys, + and -</b></td><td>the same without a mouse</td></tr></table>"
         "<h3>First-Person</h3>"
         "<table cellspacing='4'>"
         "<tr><td><b>W A S D</b></td><td>forward, left, backward, right</td></tr>"
@@ -51,6 +52,7 @@ QString keys_text() {
         "<h3>All</h3>"
         "<table cellspacing='4'>"
         "<tr><td><b>R</b></td><td>back to where the camera began</td></tr>"
+        "<tr><td><b>F9</b></td><td>the scene alone, in large type</td></tr>"
         "<tr><td><b>Click on the dome</b></td><td>the paths of light that end there</td></tr>"
         "<tr><td><b>Drag the line of a split view</b></td><td>more of one BRDF</td></tr>"
         "</table>");

@@ -26,10 +26,12 @@ LightFields::LightFields(Document& document, QWidget* parent)
 void LightFields::add_kind() {
     auto* kind = new QComboBox;
     kind->setObjectName("light-kind");
-    kind->addItems({tr("Point"), tr("Sky"), tr("Environment")});  // in the order of LightKind
+    kind->addItems(
+        {tr("Point"), tr("Sky"), tr("Environment"), tr("Soft sky")});  // in the order of LightKind
     add_row(form(), tr("Light Kind"), kind,
             tr("L of the rendering equation (thesis eq. 3.2): a point as in the thesis, a clear "
-               "sky with its sun, or a picture of the surroundings"));
+               "sky with its sun, a picture of the surroundings, or the even light of a "
+               "photographer's room"));
     bindings_.bind(
         kind, tr("Light Kind"),
         [](const StudioSettings& s) { return static_cast<int>(s.model_view.light); },
@@ -60,6 +62,7 @@ QWidget* LightFields::position_field() {
         auto* box = new NumberBox(-kFarthest, kFarthest, 2, 0.1);
         box->setObjectName(QString("light-") + name);
         box->setAccessibleName(tr("Light Position %1").arg(name));
+        box->setButtonSymbols(QAbstractSpinBox::NoButtons);  // three in a narrow row
         layout->addWidget(box);
         const auto member = axis;
         bindings_.bind(

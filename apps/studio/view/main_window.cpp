@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "main_window.h"
 
+#include "../model/first_session.h"
 #include "../model/recovery.h"
 #include "log_view.h"
 #include "menu_panel.h"
@@ -20,10 +21,12 @@
 #include <QFileInfo>
 #include <QKeyEvent>
 #include <QLocale>
+#include <QMenuBar>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QStackedWidget>
 #include <QStatusBar>
+#include <QTabWidget>
 #include <QVBoxLayout>
 
 namespace asperity::studio {
@@ -52,8 +55,8 @@ struct MainWindow::Parts {
     MenuPanel* menu = nullptr;
     Tour* tour = nullptr;
     QStackedWidget* scenes = nullptr;
-    QList<QDockWidget*> docks;  ///< Menu, Plots, Log
-    QByteArray first_layout;
+    QList<QDockWidget*> docks;               ///< Menu, Plots, Log
+    QByteArray first_layout, layout_before;  ///< the latter: of a presentation
 };
 
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), parts_(std::make_unique<Parts>()) {
@@ -123,9 +126,11 @@ void MainWindow::make_docks() {
         add_dock(*this, tr("Log"), "log-dock", new LogView(workbench()), Qt::RightDockWidgetArea);
     parts_->docks = {menu, plots, log};
     const QFontMetrics letters = fontMetrics();
-    resizeDocks({menu, plots}, {40 * letters.averageCharWidth(), 66 * letters.averageCharWidth()},
+    tabifyDockWidget(plots, log);
+    setTabPosition(Qt::RightDockWidgetArea, QTabWidget::North);
+    plots->raise();
+    resizeDocks({menu, plots}, {40 * letters.averageCharWidth(), 52 * letters.averageCharWidth()},
                 Qt::Horizontal);
-    resizeDocks({plots, log}, {40 * letters.height(), 14 * letters.height()}, Qt::Vertical);
 }
 
 Workbench& MainWindow::workbench() {
@@ -163,6 +168,20 @@ void MainWindow::show_title() {
         document.path().isEmpty() ? tr("new session") : QFileInfo(document.path()).fileName();
     setWindowTitle(tr("%1[*] - Asperity").arg(name));
     setWindowModified(document.modified());
+}
+
+void MainWindow::begin(bool measure) {
+    measure_ = measure;
+    new_session();
+}
+
+void MainWindow::new_session() {
+    workbench().stop_drawing();
+    workbench().drawing().clear();
+    workbench().document().reset(first_session());
+    surface_scene().viewport().reset_camera();
+    model_scene().viewport().reset_camera();
+    if (measure_) workbench().draw_to_textures();
 }
 
 void MainWindow::view(SceneKind scene) {
@@ -205,6 +224,34 @@ void MainWindow::offer_lost_session() {
     box->open();
 }
 
+void MainWindow::set_presenting(bool presenting) {
+    if (presenting == presenting_) return;
+    presenting_ = presenting;
+    constexpr double kLarge = 1.9;
+    QFont letters = font();
+    if (presenting) {
+        parts_->layout_before = saveState();
+        for (QDockWidget* dock : parts_->docks) dock->hide();
+        letters.setPointSizeF(kLarge * letters.pointSizeF());
+    } else {
+        restoreState(parts_->layout_before);
+    }
+    menuBar()->setVisible(!presenting);
+    statusBar()->setVisible(!presenting);
+    centralWidget()->setFont(letters);
+    setWindowState(windowState().setFlag(Qt::WindowFullScreen, presenting));
+    for (Viewport* viewport : {&surface_scene().viewport(), &model_scene().viewport()})
+        viewport->refresh_overlay();
+    emit presenting_changed(presenting);
+}
+
+void MainWindow::keyPressEvent(QKeyEvent* event) {
+    if (event->key() == Qt::Key_Escape && presenting_)
+        set_presenting(false);
+    else
+        QMainWindow::keyPressEvent(event);
+}
+
 void MainWindow::reset_layout() {
     restoreState(parts_->first_layout);
 }
@@ -218,6 +265,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
         });
         return;
     }
+    set_presenting(false);
     workbench().stop_drawing();
     preferences::set_window(saveGeometry(), saveState());
     event->accept();

@@ -35,6 +35,13 @@ class MainWindow : public QMainWindow {
 
     void set_asking(Asking asking) { asking_ = asking; }
 
+    /// A new session as the program begins with one; nothing is asked. `measure`: draws it at once,
+    /// and every New Session from then on.
+    void begin(bool measure);
+    void new_session();
+    bool measures_at_start() const { return measure_; }
+    void set_measures_at_start(bool measure) { measure_ = measure; }
+
     /// Opens whatever a file is: a session, a result, a model, a surface. Errors are complained of.
     void open(const QString& path);
     void load_model(const QString& name_or_file);
@@ -54,8 +61,15 @@ class MainWindow : public QMainWindow {
     void complain_aloud(const QString& sentence);
     /// Docks where they were at the beginning.
     void reset_layout();
+    /// For a lecture: the scene alone, in large type, on the full screen. Esc ends it.
+    void set_presenting(bool presenting);
+    bool is_presenting() const { return presenting_; }
+
+  signals:
+    void presenting_changed(bool presenting);
 
   protected:
+    void keyPressEvent(QKeyEvent* event) override;
     void closeEvent(QCloseEvent* event) override;
     void dragEnterEvent(QDragEnterEvent* event) override;
     void dropEvent(QDropEvent* event) override;
@@ -70,6 +84,8 @@ class MainWindow : public QMainWindow {
 
     std::unique_ptr<Parts> parts_;
     Asking asking_ = Asking::Yes;
+    bool measure_ = false;
+    bool presenting_ = false;
     bool closing_ = false;
 };
 

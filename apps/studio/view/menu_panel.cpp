@@ -62,6 +62,8 @@ StudioStatistics frame_statistics(Viewport& viewport) {
     StudioStatistics statistics;
     statistics.frames_per_second = viewport.painter().frames_per_second();
     statistics.milliseconds_per_frame = viewport.painter().milliseconds_per_frame();
+    const Frame& frame = viewport.frame();
+    statistics.samples = frame.moving ? 0 : frame.passes;
     return statistics;
 }
 
@@ -117,6 +119,9 @@ QWidget* MenuPanel::make_surface_page(SurfaceScene& scene, ModelScene& model,
     auto* buttons = new SurfaceButtons(workbench_, commands);
     connect(&model, &ModelScene::model_ready, buttons,
             [buttons, &model] { buttons->show_view_model(model.has_model()); });
+    bindings_.follow([buttons, &model](const StudioSettings&) {
+        buttons->show_view_model(model.has_model());  // a new session has none
+    });
     return make_page("surface-page", {surface_panel_, camera, statistics}, buttons);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model_scene.h"
 
+#include "file_kinds.h"
 #include "file_questions.h"
 #include "picture_labels.h"
 #include "split_handle.h"
@@ -65,11 +66,16 @@ ModelScene::ModelScene(Workbench& workbench, QWidget* parent)
     connect(&workbench.document(), &Document::changed, this, [this](const StudioSettings& before) {
         const CameraType type = workbench_.settings().model_view.camera_type;
         if (type != before.model_view.camera_type) viewport_->set_camera_type(type);
+        const KeptCamera& camera = workbench_.settings().model_view.camera;
+        if (camera != before.model_view.camera) viewport_->set_camera(camera);
     });
     connect(handle_, &SplitHandle::moved, this, [this](double position) {
         workbench_.document().change(tr("Split"), [position](StudioSettings& settings) {
             settings.model_view.split = position;
         });
+    });
+    workbench.document().before_saving([this](StudioSettings& settings) {
+        settings.model_view.camera = kept(viewport_->camera());
     });
     show_split();
 }
@@ -134,8 +140,7 @@ void ModelScene::paint_over(QPainter& painter) const {
 // Files
 
 void ModelScene::load_with_dialog() {
-    ask_file_to_open(window(), tr("Load Model"),
-                     tr("Models (*.obj *.ply *.stl *.gltf *.glb *.3ds);;All files (*)"),
+    ask_file_to_open(window(), tr("Load Model"), model_filter(),
                      [this](const QString& path) { load(path); });
 }
 

@@ -33,7 +33,8 @@ PlotsPanel::PlotsPanel(Workbench& workbench, QWidget* parent)
       workbench_(workbench),
       controls_(new PlotControls(workbench)),
       canvas_(new PlotCanvas),
-      read_out_(new QLabel) {
+      read_out_(new QLabel),
+      stale_(new QLabel(tr("Of layers drawn with other settings"), canvas_)) {
     setObjectName("plots-panel");
     read_out_->setObjectName("plot-read-out");
     read_out_->setWordWrap(true);
@@ -42,6 +43,12 @@ PlotsPanel::PlotsPanel(Workbench& workbench, QWidget* parent)
     read_out_->setFixedHeight(3 * read_out_->fontMetrics().lineSpacing());
     read_out_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
     read_out_->setToolTip(tr("Values under the mouse, ± 1 standard error"));
+    stale_->setObjectName("stale-plot");
+    stale_->setToolTip(tr("Draw To Textures fills the layers anew"));
+    stale_->setStyleSheet("color: #1b1d21; background: #d9a441; padding: 2px 6px;");
+    stale_->adjustSize();
+    stale_->move(0, 0);
+    stale_->hide();
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(controls_);
     layout->addWidget(canvas_, 1);
@@ -108,6 +115,9 @@ void PlotsPanel::refresh() {
     clock.start();
     if (const auto wish = models_for(source)) models_.want(*wish);
     canvas_->set_plot(plot());
+    const bool of_layers = source.view.kind != PlotKind::Normals && source.layers.head;
+    stale_->setVisible(of_layers && !workbench_.is_drawing() && !workbench_.are_layers_current());
+    stale_->move(canvas_->width() - stale_->width(), canvas_->height() - stale_->height());
     timer_.setInterval(
         std::max(kMillisecondsBetween, kShareOfTime * static_cast<int>(clock.elapsed())));
 }

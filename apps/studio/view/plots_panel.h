@@ -46,6 +46,7 @@ class PlotsPanel : public QWidget {
     PlotControls* controls_;
     PlotCanvas* canvas_;
     QLabel* read_out_;
+    QLabel* stale_;
     ModelCurves models_;
     std::shared_ptr<plots::DiscPainter> disc_painter_ = std::make_shared<plots::DiscPainter>();
     QTimer timer_;  ///< until the next plot may be made

@@ -15,13 +15,21 @@ constexpr int kRecentFiles = 8;
 
 Theme theme() {
     const QString name = QSettings().value("theme").toString();
-    return name == "light" ? Theme::Light : name == "dark" ? Theme::Dark : Theme::System;
+    return name == "light" ? Theme::Light : name == "system" ? Theme::System : Theme::Dark;
 }
 
 void set_theme(Theme theme) {
     QSettings().setValue("theme", theme == Theme::Light  ? "light"
                                   : theme == Theme::Dark ? "dark"
                                                          : "system");
+}
+
+bool measure_at_start() {
+    return QSettings().value("measure-at-start", true).toBool();
+}
+
+void set_measure_at_start(bool measure) {
+    QSettings().setValue("measure-at-start", measure);
 }
 
 QString last_folder() {

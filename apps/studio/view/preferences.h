@@ -11,8 +11,12 @@
 /// names of organisation and program. Sessions are no preferences.
 namespace asperity::studio::preferences {
 
-Theme theme();
+Theme theme();  ///< dark the first time
 void set_theme(Theme theme);
+
+/// Whether a new session is drawn without being asked to; true the first time.
+bool measure_at_start();
+void set_measure_at_start(bool measure);
 
 /// The user's home the first time.
 QString last_folder();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rows.h"
 
+#include "section.h"
+
 namespace asperity::studio {
 
 QFormLayout* new_rows(QWidget* parent) {
@@ -12,6 +14,7 @@ QFormLayout* new_rows(QWidget* parent) {
 void add_row(QFormLayout& rows, const QString& label, QWidget* field, const QString& tooltip) {
     rows.addRow(label, field);
     rows.labelForField(field)->setToolTip(tooltip);
+    rows.labelForField(field)->setMinimumWidth(label_width(field->fontMetrics()));
     field->setToolTip(tooltip);
     for (QWidget* part : field->findChildren<QWidget*>()) part->setToolTip(tooltip);
 }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the main window does with files: sessions, results, models, surfaces.
 #include "../model/recovery.h"
+#include "file_kinds.h"
 #include "file_questions.h"
 #include "main_window.h"
 #include "model_scene.h"
 #include "preferences.h"
 
 #include <asperity/core/error.h>
-#include <asperity/formats/models/model_reader.h>
-#include <asperity/formats/results/result_file.h>
 
 #include <QDragEnterEvent>
 #include <QDropEvent>
@@ -21,11 +20,6 @@
 namespace asperity::studio {
 
 namespace {
-
-bool is_surface_file(const QString& path) {
-    static const QStringList endings = {"gsf", "exr", "png", "csv", "asc", "dat"};
-    return endings.contains(QFileInfo(path).suffix().toLower());
-}
 
 /// The layers of a result, with the settings that they belong to.
 void open_result(Workbench& workbench, const QString& path) {
@@ -48,13 +42,13 @@ void open_surface(Document& document, const QString& path) {
 }  // namespace
 
 void MainWindow::open(const QString& path) {
-    const std::string name = QFile::encodeName(path).toStdString();
     try {
-        if (io::is_model_file(name)) {
+        const FileKind kind = kind_of_file(path);
+        if (kind == FileKind::Model) {
             load_model(path);
-        } else if (io::looks_like_result(name)) {
+        } else if (kind == FileKind::Result) {
             open_result(workbench(), path);
-        } else if (is_surface_file(path)) {
+        } else if (kind == FileKind::Surface) {
             open_surface(workbench().document(), path);
         } else {
             after_saving([this, path] {
@@ -75,12 +69,10 @@ void MainWindow::open(const QString& path) {
 }
 
 void MainWindow::ask_for_model() {
-    ask_file_to_open(this, tr("Load Model"),
-                     tr("Models (*.obj *.ply *.stl *.gltf *.glb *.3ds);;All files (*)"),
-                     [this](const QString& path) {
-                         load_model(path);
-                         preferences::add_recent_file(path);
-                     });
+    ask_file_to_open(this, tr("Load Model"), model_filter(), [this](const QString& path) {
+        load_model(path);
+        preferences::add_recent_file(path);
+    });
 }
 
 void MainWindow::after_saving(const std::function<void()>& then) {

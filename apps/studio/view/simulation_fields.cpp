@@ -69,7 +69,8 @@ TextureFields::TextureFields(Workbench& workbench, QWidget* parent)
     sizes->setToolTip(
         tr("Texels of a sky-map across and down. Its upper half, resolution columns by half as "
            "many rows, is the hemisphere that light is sorted into"));
-    for (const int size : {32, 64, 128, 256, 512}) sizes->addItem(QString("%1x%1").arg(size), size);
+    for (const int size : {32, 64, 128, 256, 512, 1024, 2048, 4096})
+        sizes->addItem(QString("%1x%1").arg(size), size);
     form().addRow(tr("Texture Resolution"), sizes);
     lock_.add(sizes);
 
@@ -114,6 +115,8 @@ void SimulationFields::add_rays() {
         s.experiment.run.rays = 0;
     });
     add_setting("bounces");
+    add_setting("layers");
+    add_setting("theta");
 }
 
 void SimulationFields::add_setting(const char* name) {

@@ -43,6 +43,10 @@ SliderField::SliderField(const QString& name, double low, double high, int decim
       step_(step) {
     box_->setObjectName(name);
     slider_->setObjectName(name + "-slider");
+    QString spoken = name;  // for screen readers
+    spoken.replace('-', ' ');
+    for (QWidget* part : {static_cast<QWidget*>(box_), static_cast<QWidget*>(slider_)})
+        part->setAccessibleName(spoken);
     auto* layout = new QHBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     slider_->setMinimumWidth(3 * fontMetrics().height());

@@ -2,6 +2,7 @@
 #include "surface_fields.h"
 
 #include "../model/settings_keys.h"
+#include "file_kinds.h"
 #include "file_questions.h"
 #include "param_control.h"
 
@@ -197,6 +198,7 @@ void SurfaceFields::add_size() {
     layout->setContentsMargins(0, 0, 0, 0);
     size_ = new QSpinBox;
     size_->setObjectName("surface-size");
+    size_->setAccessibleName(tr("Surface Size"));
     auto* apply = new QPushButton(tr("Apply Size"));
     apply->setObjectName("apply-size");
     apply->setToolTip(tr("Makes the surface anew with the size beside"));
@@ -231,15 +233,13 @@ void SurfaceFields::apply_size() {
 }
 
 void SurfaceFields::open_file() {
-    ask_file_to_open(window(), tr("Open Surface File"),
-                     tr("Heights (*.gsf *.exr *.png *.txt *.csv *.asc *.dat);;All files (*)"),
-                     [this](const QString& path) {
-                         workbench_.document().change(
-                             tr("Surface File"), [&path](StudioSettings& settings) {
-                                 settings.experiment.surface.kind = kSurfaceFile;
-                                 settings.experiment.surface.file = path.toStdString();
-                             });
-                     });
+    ask_file_to_open(
+        window(), tr("Open Surface File"), surface_filter(), [this](const QString& path) {
+            workbench_.document().change(tr("Surface File"), [&path](StudioSettings& settings) {
+                settings.experiment.surface.kind = kSurfaceFile;
+                settings.experiment.surface.file = path.toStdString();
+            });
+        });
 }
 
 }  // namespace asperity::studio

@@ -8,6 +8,8 @@
 #include "surface_labels.h"
 
 #include <asperity/core/directions.h>
+#include <asperity/core/error.h>
+#include <asperity/optics/fresnel.h>
 #include <asperity/tracing/launch.h>
 
 #include <QEvent>
@@ -22,8 +24,8 @@ namespace {
 
 constexpr int kGrowMs = 100;
 
-/// Inside the dome, behind the light of small azimuths: the lobe lies ahead, over the surface.
-Orbiter home_of_scene() {
+/// Behind the light of small azimuths, the lobe ahead over the surface, the dome all around.
+Orbiter home_within() {
     Orbiter home;
     home.target = {0, 0.55, 0};
     home.distance = 4.6;
@@ -31,6 +33,39 @@ Orbiter home_of_scene() {
     home.elevation_deg = 13;
     home.fov_deg = 50;
     return home;
+}
+
+/// Outside the dome, all of it in view: the light comes from the right, the lobe lies to the left.
+Orbiter home_outside() {
+    Orbiter home;
+    home.target = {0, 0.8, 0};
+    home.distance = 10.2;
+    home.azimuth_deg = 32;
+    home.elevation_deg = 22;
+    home.fov_deg = 36;
+    return home;
+}
+
+void set_home(Viewport& viewport, const SurfaceView& view) {
+    constexpr double kDomeAspect = 1.16;  // of a window that the whole dome just fits into
+    if (view.whole_dome)
+        viewport.set_home(home_outside(), kDomeAspect);
+    else
+        viewport.set_home(home_within());
+}
+
+/// Reflectance along the normal, as linear sRGB; none unless facets are of a metal or coloured.
+std::optional<Vec3> metal_of(const OpticsSettings& optics) {
+    if (optics.fresnel != FresnelKind::Conductor) return std::nullopt;
+    try {
+        const Fresnel fresnel(optics);
+        std::vector<double> f(static_cast<std::size_t>(fresnel.channels()));
+        fresnel.eval(1, f);
+        if (f.size() == 3) return Vec3{f[0], f[1], f[2]};
+        return Vec3{f[0], f[0], f[0]};
+    } catch (const Error&) {  // being typed
+        return std::nullopt;
+    }
 }
 
 bool same_look(const io::SkyMapSettings& a, const io::SkyMapSettings& b) {
@@ -58,11 +93,14 @@ SurfaceScene::SurfaceScene(Workbench& workbench, QWidget* parent)
     setFocusProxy(viewport_);
     growing_.setSingleShot(true);
     growing_.setInterval(kGrowMs);
-    viewport_->set_home(home_of_scene());
+    set_home(*viewport_, workbench_.settings().surface_view);
     viewport_->set_camera_type(workbench_.settings().surface_view.camera_type);
     viewport_->add_overlay(
         [this](QPainter& painter, const Viewport&) { paint_kept_lines(painter); });
     viewport_->add_overlay([this](QPainter& painter, const Viewport&) { paint_labels(painter); });
+    workbench.document().before_saving([this](StudioSettings& settings) {
+        settings.surface_view.camera = kept(viewport_->camera());
+    });
     connect_workbench();
     connect_viewport();
     take_layer();
@@ -104,13 +142,16 @@ void SurfaceScene::connect_viewport() {
 void SurfaceScene::follow_settings(const StudioSettings& before) {
     const SurfaceView &then = before.surface_view, &now = workbench_.settings().surface_view;
     if (then.camera_type != now.camera_type) viewport_->set_camera_type(now.camera_type);
+    if (then.whole_dome != now.whole_dome) set_home(*viewport_, now);
+    if (then.camera != now.camera) viewport_->set_camera(now.camera);
     const Detector wanted(workbench_.settings().experiment.detector);
     const bool other_layer = then.current_layer != now.current_layer || then.dome != now.dome ||
-                             !same_look(then.sky_map, now.sky_map) ||
+                             then.lobe != now.lobe || !same_look(then.sky_map, now.sky_map) ||
                              wanted.cells() != detector_.cells() ||
                              wanted.kind() != detector_.kind();
     if (other_layer) take_layer();
-    if (other_layer || then.shading != now.shading)
+    if (other_layer || then.shading != now.shading ||
+        metal_of(before.experiment.optics) != metal_of(workbench_.settings().experiment.optics))
         show_picture();
     else
         forget_lines();
@@ -131,12 +172,17 @@ void SurfaceScene::take_layer() {
     const Layers& layers = workbench_.drawing().layers();
     detector_ = layers.head ? layers.head->detector : Detector(settings.experiment.detector);
     dome_ = nullptr;
+    lobe_ = nullptr;
     const auto found = layers.by_number.find(settings.surface_view.current_layer);
-    if (!settings.surface_view.dome || !layers.head || found == layers.by_number.end()) return;
-    dome_ = std::make_shared<const Lazy<DomePicture>>(
-        [head = layers.head, layer = found->second, look = settings.surface_view.sky_map] {
-            return DomePicture(*head, *layer, look);
-        });
+    if (!layers.head || found == layers.by_number.end()) return;
+    const auto made = [&, layer = found->second]<class Part>(std::type_identity<Part>) {
+        return std::make_shared<const Lazy<Part>>(
+            [head = layers.head, layer, look = settings.surface_view.sky_map] {
+                return Part(*head, *layer, look);
+            });
+    };
+    if (settings.surface_view.dome) dome_ = made(std::type_identity<DomePicture>());
+    if (settings.surface_view.lobe) lobe_ = made(std::type_identity<Lobe>());
 }
 
 /// The facets of the paths into a cell stand out; those of all paths would be all over.
@@ -149,8 +195,12 @@ void SurfaceScene::take_paths() {
 
 void SurfaceScene::show_picture() {
     forget_lines();
-    const SurfacePicture picture{body_, dome_, workbench_.settings().surface_view.shading,
-                                 selected_facets_};
+    const SurfacePicture picture{body_,
+                                 dome_,
+                                 workbench_.settings().surface_view.shading,
+                                 selected_facets_,
+                                 metal_of(workbench_.settings().experiment.optics),
+                                 lobe_};
     viewport_->set_picture(
         [picture](const Camera& camera) { return paint_surface(picture, camera); });
 }
@@ -158,11 +208,19 @@ void SurfaceScene::show_picture() {
 // Cells of the dome
 
 std::optional<int> SurfaceScene::cell_at(QPointF place) const {
-    if (!workbench_.settings().surface_view.dome) return std::nullopt;
     const WorldRay ray = viewport_->ray_at(place);
     const SurfaceBody* surface = body();
-    if (surface && surface->view().look(surface->frame().to_surface(ray)).part != PatchPart::None)
-        return std::nullopt;
+    PatchHit on_surface;
+    if (surface) on_surface = surface->view().look(surface->frame().to_surface(ray));
+    const bool hidden = on_surface.part != PatchPart::None;
+    if (const Lobe* lobe = lobe_ ? lobe_->if_made() : nullptr) {
+        Hit hit;
+        lobe->look({&ray, 1}, {&hit, 1});
+        const bool in_front = !hidden || static_cast<double>(hit.distance) <
+                                             surface->frame().scale * on_surface.distance;
+        if (hit.found() && in_front) return detector_.cell_of(Lobe::direction(ray, hit));
+    }
+    if (hidden || !workbench_.settings().surface_view.dome) return std::nullopt;
     const std::optional<Vec3> direction = dome_direction(ray);
     if (!direction || direction->y < 0) return std::nullopt;
     return detector_.cell_of(SurfaceFrame::direction_to_surface(*direction));

@@ -54,6 +54,7 @@ class SurfaceScene : public QWidget {
     Viewport* viewport_;
     std::shared_ptr<const Lazy<SurfaceBody>> body_;
     std::shared_ptr<const Lazy<DomePicture>> dome_;
+    std::shared_ptr<const Lazy<Lobe>> lobe_;
     std::shared_ptr<const FacetSet> selected_facets_;
     Detector detector_;
     std::optional<QPointF> hovered_;

@@ -58,6 +58,8 @@ void add_display(MainWindow& window, QMenu& menu) {
     add(tr("Dome"), "F5", &SurfaceView::dome);
     add(tr("Beam"), "F6", &SurfaceView::beam);
     add(tr("Paths of light"), "F7", &SurfaceView::paths);
+    add(tr("Lobe"), "F8", &SurfaceView::lobe);
+    add(tr("Whole Dome"), "F10", &SurfaceView::whole_dome);
     menu.addAction(tr("Reset Camera"), &window,
                    [&window, &document] {
                        if (document.settings().scene == SceneKind::Surface)
@@ -107,6 +109,15 @@ void add_view_menu(MainWindow& window, const QList<QDockWidget*>& docks) {
         window.setWindowState(window.windowState() ^ Qt::WindowFullScreen);
     });
     full->setShortcut(QKeySequence("F11"));
+    QAction* present = menu.addAction(tr("Presentation"));
+    present->setObjectName("presentation");
+    present->setShortcut(QKeySequence("F9"));
+    present->setCheckable(true);
+    present->setStatusTip(tr("The scene alone, in large type; Esc or F9 ends it"));
+    // The menu is hidden meanwhile, and the key works on
+    window.addAction(present);
+    QObject::connect(present, &QAction::triggered, &window, &MainWindow::set_presenting);
+    QObject::connect(&window, &MainWindow::presenting_changed, present, &QAction::setChecked);
 }
 
 }  // namespace asperity::studio

@@ -6,6 +6,7 @@
 #include <QApplication>
 #include <QKeyEvent>
 #include <QMouseEvent>
+#include <QNativeGestureEvent>
 #include <QPainter>
 #include <QWheelEvent>
 
@@ -110,9 +111,17 @@ void Viewport::show_frame(const Frame& frame) {
 
 // The camera
 
-void Viewport::set_home(const Orbiter& home) {
+void Viewport::set_home(const Orbiter& home, double aspect) {
     home_ = home;
+    home_aspect_ = aspect;
     reset_camera();
+}
+
+Orbiter Viewport::fitted_home() const {
+    Orbiter home = home_;
+    const double aspect = static_cast<double>(width()) / std::max(1, height());
+    if (aspect < home_aspect_) home.distance *= home_aspect_ / std::max(aspect, 0.1);
+    return home;
 }
 
 void Viewport::set_camera_type(CameraType type) {
@@ -130,13 +139,38 @@ void Viewport::set_camera_type(CameraType type) {
     show_camera(false);
 }
 
-void Viewport::reset_camera() {
-    const Camera home = home_.camera();
+void Viewport::set_camera(const Camera& camera) {
     std::visit(
         [&](auto& controller) {
             using Controller = std::decay_t<decltype(controller)>;
             if constexpr (std::is_same_v<Controller, Orbiter>)
-                controller = home_;
+                controller = make_orbiter(camera, home_.target);
+            else if constexpr (std::is_same_v<Controller, FirstPerson>)
+                controller = make_first_person(camera);
+            else
+                controller = make_six_dof(camera);
+        },
+        controller_);
+    at_home_ = false;
+    show_camera(false);
+}
+
+void Viewport::set_camera(const KeptCamera& kept) {
+    if (const std::optional<Camera> camera = camera_of(kept))
+        set_camera(*camera);
+    else
+        reset_camera();
+}
+
+void Viewport::reset_camera() {
+    const Orbiter fitted = fitted_home();
+    const Camera home = fitted.camera();
+    at_home_ = true;
+    std::visit(
+        [&](auto& controller) {
+            using Controller = std::decay_t<decltype(controller)>;
+            if constexpr (std::is_same_v<Controller, Orbiter>)
+                controller = fitted;
             else if constexpr (std::is_same_v<Controller, FirstPerson>)
                 controller = make_first_person(home);
             else
@@ -155,6 +189,7 @@ bool Viewport::show_camera(bool moving) {
     const Camera camera = std::visit([](const auto& c) { return c.camera(); }, controller_);
     if (same_camera(camera, camera_)) return false;
     camera_ = camera;
+    if (moving) at_home_ = false;
     refresh(moving);
     emit camera_moved();
     return true;
@@ -226,6 +261,7 @@ void Viewport::keyPressEvent(QKeyEvent* event) {
         reset_camera();
         return;
     }
+    if (event->modifiers() == Qt::NoModifier && turn_by_key(event->key())) return;
     bool* pressed = switch_of(event->key(), input_);
     if (!pressed) {
         QWidget::keyPressEvent(event);
@@ -233,6 +269,53 @@ void Viewport::keyPressEvent(QKeyEvent* event) {
     }
     *pressed = true;
     if (has_keys(input_)) wake();
+}
+
+/// What the mouse does, for those who have none: arrows turn, + and - bring nearer and farther.
+bool Viewport::turn_by_key(int key) {
+    constexpr double kTurn = 1.0 / 36;  // of the height, so 5 degrees
+    CameraInput input;
+    switch (key) {
+        case Qt::Key_Left:
+            input.drag_x = -kTurn;
+            break;
+        case Qt::Key_Right:
+            input.drag_x = kTurn;
+            break;
+        case Qt::Key_Up:
+            input.drag_y = -kTurn;
+            break;
+        case Qt::Key_Down:
+            input.drag_y = kTurn;
+            break;
+        case Qt::Key_Plus:
+        case Qt::Key_Equal:
+            input.scroll = 1;
+            break;
+        case Qt::Key_Minus:
+            input.scroll = -1;
+            break;
+        default:
+            return false;
+    }
+    input.left_button = true;
+    std::visit([&input](auto& controller) { controller.step(input); }, controller_);
+    show_camera(true);
+    return true;
+}
+
+/// Two fingers drawn apart on a trackpad bring nearer.
+bool Viewport::event(QEvent* event) {
+    if (event->type() == QEvent::NativeGesture) {
+        const auto* gesture = static_cast<QNativeGestureEvent*>(event);
+        if (gesture->gestureType() == Qt::ZoomNativeGesture) {
+            constexpr double kNotchesToDouble = 7;  // a tenth each
+            input_.scroll += kNotchesToDouble * gesture->value();
+            wake();
+            return true;
+        }
+    }
+    return QWidget::event(event);
 }
 
 void Viewport::keyReleaseEvent(QKeyEvent* event) {
@@ -256,6 +339,7 @@ void Viewport::focusOutEvent(QFocusEvent* event) {
 
 void Viewport::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
+    if (at_home_ && home_aspect_ > 0) reset_camera();
     refresh(true);
 }
 

@@ -46,9 +46,14 @@ class Viewport : public QWidget {
     /// lines and clicks go by it. camera() without a picture.
     const Camera& shown_camera() const { return frame_.image.isNull() ? camera_ : shown_camera_; }
     /// Where R leads back to, and where to begin. World: y up.
-    void set_home(const Orbiter& home);
+    /// It is that of a view so many times as wide as high, and moves back for a narrower one.
+    void set_home(const Orbiter& home, double aspect = 0);
     void set_camera_type(CameraType type);
     void reset_camera();
+    /// Looks through it; the steering takes over from there. A session was opened.
+    void set_camera(const Camera& camera);
+    /// Through that camera, or home without one.
+    void set_camera(const KeptCamera& kept);
     bool is_moving() const;
 
     /// Where a point of the world lies in the widget by shown_camera(); none behind it.
@@ -77,10 +82,12 @@ class Viewport : public QWidget {
     void keyPressEvent(QKeyEvent*) override;
     void keyReleaseEvent(QKeyEvent*) override;
     void focusOutEvent(QFocusEvent*) override;
+    bool event(QEvent*) override;
 
   private:
     bool show_camera(bool moving);
     void step();
+    bool turn_by_key(int key);
     void wake();
     void show_frame(const Frame& frame);
     void paint_over(QPainter& painter) const;
@@ -89,7 +96,11 @@ class Viewport : public QWidget {
     Picture picture_;
     std::vector<PaintOver> overlays_;
     Frame frame_;
+    Orbiter fitted_home() const;
+
     Orbiter home_;
+    double home_aspect_ = 0;
+    bool at_home_ = true;  ///< nobody has moved the camera from there
     CameraController controller_;
     Camera camera_, shown_camera_;
     std::deque<std::pair<std::uint64_t, Camera>> wished_;  ///< cameras of pictures to come
