@@ -34,6 +34,10 @@ BatchRange LayerInWork::round() {
     return {round.end, round.end + more()};
 }
 
+BatchRange LayerInWork::whole_round() const {
+    return plan_.round_of(sums_.done.end());
+}
+
 void LayerInWork::leave_out() {
     const SumShape shape = sums_.shape;
     sums_ = {};
@@ -121,7 +125,9 @@ void LayersInWork::share_out(int part, int parts, bool of_missing) {
     // All batches there are to share, layer after layer
     std::vector<std::pair<std::size_t, std::uint64_t>> batches;
     for (std::size_t k = 0; k < layers_.size(); ++k) {
-        const BatchRange round = layers_[k].round();
+        // A share that goes on from its own checkpoint is the share it was before anything was done
+        const BatchRange round =
+            parts > 1 && !of_missing ? layers_[k].whole_round() : layers_[k].round();
         for (std::uint64_t b = round.begin; b < round.end; ++b)
             if (!of_missing || !layers_[k].has(b)) batches.emplace_back(k, b);
     }

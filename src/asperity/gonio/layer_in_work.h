@@ -38,6 +38,8 @@ class LayerInWork {
     /// The round under way, or nothing if all is done: the batches of it that were not looked at
     /// before, with those that are missing among earlier ones.
     BatchRange round();
+    /// All batches of the round that was looked at last, done or not.
+    BatchRange whole_round() const;
     bool has(std::uint64_t batch) const { return sums_.done.contains(batch); }
     /// Adds one to those to do.
     void plan(std::uint64_t batch) { to_do_.push_back(batch); }
