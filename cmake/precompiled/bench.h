@@ -1,4 +1,3 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <CLI/CLI.hpp>
-#include "library.h"
+#include "command_line.h"

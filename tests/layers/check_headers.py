@@ -2,27 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Each public header compiles alone, whatever stands before it where it is used.
 
-A header that is the first include of a source is shown to do so by every build; the others are compiled
-here, each alone, without writing anything.
+A header that is the first include of a source is shown to do so by every build, unless that reads headers
+beforehand for it; the others are compiled here, each alone, without writing anything.
 
 usage: check_headers.py COMPILE_COMMANDS.json HEADER_LIST SOURCE_FOLDER
 prints the compiler's errors and exits 1 if there are any."""
 
-import json
 import os
 import re
-import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
+
+from compile_commands import refused, sources
 
 FIRST_INCLUDE = re.compile(r"^\s*#\s*include\s*[<\"](.*)[>\"]", re.MULTILINE)
-
-
-def sources(path, folder):
-    """file -> (folder to run in, command) of the library's sources."""
-    entries = json.load(open(path, encoding="utf-8"))
-    return {entry["file"]: (entry["directory"], entry["command"]) for entry in entries
-            if entry["file"].startswith(folder + "/")}
 
 
 def first_includes(files):
@@ -38,16 +30,8 @@ def command_for(header, commands, folder):
     """That of the source which is nearest to the header in the tree: it has the room's own flags."""
     place = os.path.join(folder, header)
     nearest = max(commands, key=lambda file: (len(os.path.commonpath([file, place])), file))
-    directory, command = commands[nearest]
-    command = re.sub(r"\s(-MD|-M[TF] \S+|-o \S+)(?=\s|$)", "", command)
+    directory, command, _ = commands[nearest]
     return directory, re.sub(r"\s-c\s.*$", " -fsyntax-only -x c++ -", command)
-
-
-def check(job):
-    header, (directory, command) = job
-    done = subprocess.run(command, shell=True, cwd=directory, input=f"#include <{header}>\n",
-                          capture_output=True, text=True)
-    return header, done.returncode, done.stderr
 
 
 def main():
@@ -58,15 +42,10 @@ def main():
     if not commands or not headers:
         print("no source or no header was found: the test tests nothing")
         return 1
-    shown = first_includes(commands)
-    jobs = [(header, command_for(header, commands, folder)) for header in headers
-            if header not in shown]
-    wrong = 0
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        for header, code, errors in pool.map(check, jobs):
-            if code != 0:
-                wrong += 1
-                print(f"{header}:\n{errors}")
+    shown = first_includes(file for file, (*_, precompiled) in commands.items() if not precompiled)
+    jobs = [(header, *command_for(header, commands, folder), f"#include <{header}>\n")
+            for header in headers if header not in shown]
+    wrong = refused(jobs)
     print(f"{len(headers)} public headers, {len(jobs)} compiled alone here, {wrong} refused")
     return 1 if wrong else 0
 

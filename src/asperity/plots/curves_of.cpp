@@ -11,36 +11,33 @@
 
 namespace asperity::plots {
 
-CurveSet lobe_set(std::string title) {
+namespace {
+
+/// Curves of a figure over an angle in degrees: its symbol, and its name in ASCII for tables.
+CurveSet set_over(std::string title, const char* angle, const char* column, const char* figure,
+                  const char* unit = "") {
     CurveSet set;
     set.title = std::move(title);
-    set.x_name = "θₒ";
+    set.x_name = angle;
     set.x_unit = "°";
-    set.x_column = "theta_o [deg]";
-    set.y_name = "f";
-    set.y_unit = "sr⁻¹";
+    set.x_column = column;
+    set.y_name = figure;
+    set.y_unit = unit;
     return set;
+}
+
+}  // namespace
+
+CurveSet lobe_set(std::string title) {
+    return set_over(std::move(title), "θₒ", "theta_o [deg]", "f", "sr⁻¹");
 }
 
 CurveSet albedo_set(std::string title) {
-    CurveSet set;
-    set.title = std::move(title);
-    set.x_name = "θᵢ";
-    set.x_unit = "°";
-    set.x_column = "theta_i [deg]";
-    set.y_name = "albedo";
-    return set;
+    return set_over(std::move(title), "θᵢ", "theta_i [deg]", "albedo");
 }
 
 CurveSet normals_set(std::string title) {
-    CurveSet set;
-    set.title = std::move(title);
-    set.x_name = "θₘ";
-    set.x_unit = "°";
-    set.x_column = "theta_m [deg]";
-    set.y_name = "D";
-    set.y_unit = "sr⁻¹";
-    return set;
+    return set_over(std::move(title), "θₘ", "theta_m [deg]", "D", "sr⁻¹");
 }
 
 std::string layer_title(const Layer& layer) {
