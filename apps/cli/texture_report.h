@@ -4,12 +4,9 @@
 #include "report_json.h"
 
 #include <asperity/core/run.h>
-#include <asperity/surface/areal_parameters.h>
-#include <asperity/surface/geometric_optics.h>
-#include <asperity/surface/slope_fit.h>
 #include <asperity/surface/surface_settings.h>
+#include <asperity/surface/texture_figures.h>
 
-#include <optional>
 #include <string>
 
 namespace asperity::cli {
@@ -26,9 +23,7 @@ class TextureReport {
 
   private:
     const Heightfield& patch_;
-    ArealParameters areal_;
-    std::optional<SlopeFit> beckmann_, ggx_;
-    std::optional<GeometricOptics> optics_;  ///< of a surface in metres
+    TextureFigures figures_;
 };
 
 }  // namespace asperity::cli

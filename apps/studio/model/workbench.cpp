@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "workbench.h"
 
+#include "words.h"
+
 #include <asperity/core/error.h>
 #include <asperity/gonio/experiment_text.h>
 
@@ -33,7 +35,7 @@ Workbench::Workbench(QObject* parent) : QObject(parent) {
     connect(&surface_, &SurfaceSource::ready, this, &Workbench::surface_ready);
     connect(&surface_, &SurfaceSource::failed, this, [this](const QString& sentence) {
         set_waiting(false);
-        complain(sentence);
+        complain(in_words_of_forms(sentence));
     });
     connect(&drawing_, &Drawing::failed, this, &Workbench::complain);
     connect(&drawing_, &Drawing::state_changed, this, &Workbench::drawing_changed);

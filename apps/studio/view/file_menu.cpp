@@ -7,6 +7,7 @@
 #include "plots_panel.h"
 #include "preferences.h"
 #include "save_bytes.h"
+#include "surface_file_dialog.h"
 #include "surface_panel.h"
 #include "surface_scene.h"
 
@@ -88,6 +89,9 @@ void add_session_commands(MainWindow& window, QMenu& menu) {
 void add_import_commands(MainWindow& window, QMenu& menu) {
     menu.addAction(tr("Open Surface File..."), &window,
                    [&window] { window.surface_panel().open_surface_file(); });
+    menu.addAction(tr("Make Surface File Ready..."), &window,
+                   [&window] { show_surface_file_dialog(window.workbench(), window); })
+        ->setStatusTip(tr("Units, missing points, form, filters; before and after; figures"));
     QAction* load =
         menu.addAction(tr("Load Model..."), &window, [&window] { window.ask_for_model(); });
     load->setShortcut(QKeySequence("Ctrl+L"));

@@ -3,6 +3,7 @@
 #include "../model/recovery.h"
 #include "file_kinds.h"
 #include "file_questions.h"
+#include "file_surface_form.h"
 #include "main_window.h"
 #include "model_scene.h"
 #include "preferences.h"
@@ -31,14 +32,6 @@ void open_result(Workbench& workbench, const QString& path) {
     });
 }
 
-void open_surface(Document& document, const QString& path) {
-    document.change(QObject::tr("Surface File"), [&path](StudioSettings& settings) {
-        settings.experiment.surface.kind = kSurfaceFile;
-        settings.experiment.surface.file = path.toStdString();
-        settings.scene = SceneKind::Surface;
-    });
-}
-
 }  // namespace
 
 void MainWindow::open(const QString& path) {
@@ -49,7 +42,7 @@ void MainWindow::open(const QString& path) {
         } else if (kind == FileKind::Result) {
             open_result(workbench(), path);
         } else if (kind == FileKind::Surface) {
-            open_surface(workbench().document(), path);
+            take_surface_file(workbench().document(), path);
         } else {
             after_saving([this, path] {
                 try {

@@ -2,9 +2,14 @@
 #include "surface_fields.h"
 
 #include "../model/settings_keys.h"
+#include "../model/words.h"
+#include "channel_list.h"
 #include "file_kinds.h"
 #include "file_questions.h"
+#include "file_surface_form.h"
 #include "param_control.h"
+#include "progress_row.h"
+#include "surface_file_dialog.h"
 
 #include <asperity/surface/surface_kinds.h>
 
@@ -46,12 +51,13 @@ std::vector<std::string> kind_names() {
     return names;
 }
 
-/// The settings that have fields of their own below.
+/// The settings that have fields of their own, below or in another window.
 bool is_special(const std::string& name) {
     for (const char* special : {"surface", "size", "alpha", "correlation-length", "period",
                                 "along-y", "cell-size", "boundary", "diagonal"})
         if (name == special) return true;
-    return false;
+    // Those of files alone are in the window Surface File
+    return !surface_uses("", name) && surface_uses(kSurfaceFile, name);
 }
 
 }  // namespace
@@ -78,8 +84,9 @@ void SurfaceFields::add_row(const QString& label, QWidget* control, const QStrin
 
 void SurfaceFields::add_setting(const Param<StudioSettings>& param) {
     const std::string& name = param.info.name;
+    // Files have all their settings in a window of their own
     const Shown used = [unused = param.unused](const StudioSettings& s) {
-        return unused(s).empty();
+        return unused(s).empty() && s.experiment.surface.kind != kSurfaceFile;
     };
     const QString label = QString::fromStdString(asperity::label(param.info));
     if (name == "alpha") add_alphas(param, used);
@@ -180,15 +187,61 @@ void SurfaceFields::add_direction(const Param<StudioSettings>& param, const Show
 }
 
 void SurfaceFields::add_file() {
+    const Shown is_file = [](const StudioSettings& s) {
+        return s.experiment.surface.kind == kSurfaceFile;
+    };
     auto* file = new QPushButton;
     file->setObjectName("surface-file");
-    add_row(tr("File"), file, tr("Heights from a file: .gsf, .exr, 16-bit .png, .txt, .csv, .asc"),
-            [](const StudioSettings& s) { return s.experiment.surface.kind == kSurfaceFile; });
+    add_row(tr("File"), file, tr("Heights from a file, as instruments write them"), is_file);
     connect(file, &QPushButton::clicked, this, &SurfaceFields::open_file);
     bindings_.follow([file](const StudioSettings& settings) {
         const QString path = QString::fromStdString(settings.experiment.surface.file);
         file->setText(QFileInfo(path).fileName());
     });
+    add_row(tr("Channel"), new ChannelList(workbench_), tr("What the file holds"), is_file);
+    auto* ready = new QPushButton(tr("Make Ready..."));
+    ready->setObjectName("make-ready");
+    add_row(
+        tr("Preparation"), ready,
+        tr("Units, missing points, outliers, form, filters, crop; the surface before and after, "
+           "and its figures"),
+        is_file);
+    connect(ready, &QPushButton::clicked, this,
+            [this] { show_surface_file_dialog(workbench_, *window()); });
+    add_file_note(is_file);
+}
+
+/// What became of the file, in three lines whatever it is.
+void SurfaceFields::add_file_note(const Shown& is_file) {
+    constexpr int kLines = 3;
+    auto* note = new QLabel;
+    note->setObjectName("surface-file-note");
+    note->setWordWrap(true);
+    note->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+    note->setFixedHeight(kLines * note->fontMetrics().lineSpacing() + 2);
+    form().addRow(note);
+    rows_.push_back({note, is_file});
+    const auto show = [this, note] {
+        const SurfaceSource& surface = workbench_.surface();
+        const FileReading* reading = surface.reading();
+        const QString trouble = in_words_of_forms(surface.trouble());
+        QString text = trouble;
+        if (surface.busy())
+            text = tr("being read and made ready");
+        else if (trouble.isEmpty() && reading != nullptr)
+            text = QString::fromStdString(
+                reading->after.caption() + "; " +
+                (reading->prepared.empty() ? reading->tiling : reading->prepared));
+        QPalette colours;
+        if (!trouble.isEmpty()) colours.setColor(QPalette::WindowText, trouble_colour());
+        note->setPalette(colours);
+        note->setText(text);
+        note->setToolTip(text);
+    };
+    for (const auto signal : {&SurfaceSource::started, &SurfaceSource::ready})
+        connect(&workbench_.surface(), signal, note, show);
+    connect(&workbench_.surface(), &SurfaceSource::failed, note, show);
+    show();
 }
 
 void SurfaceFields::add_size() {
@@ -234,12 +287,8 @@ void SurfaceFields::apply_size() {
 
 void SurfaceFields::open_file() {
     ask_file_to_open(
-        window(), tr("Open Surface File"), surface_filter(), [this](const QString& path) {
-            workbench_.document().change(tr("Surface File"), [&path](StudioSettings& settings) {
-                settings.experiment.surface.kind = kSurfaceFile;
-                settings.experiment.surface.file = path.toStdString();
-            });
-        });
+        window(), tr("Open Surface File"), surface_filter(),
+        [this](const QString& path) { take_surface_file(workbench_.document(), path); });
 }
 
 }  // namespace asperity::studio

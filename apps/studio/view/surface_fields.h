@@ -30,6 +30,7 @@ class SurfaceFields : public Section {
     void add_period(const Param<StudioSettings>& param, const Shown& used);
     void add_direction(const Param<StudioSettings>& param, const Shown& used);
     void add_file();
+    void add_file_note(const Shown& is_file);
     void add_size();
     /// A row that is there for some kinds only. Locked while a drawing runs.
     void add_row(const QString& label, QWidget* control, const QString& tooltip, Shown shown);

@@ -7,6 +7,8 @@
 #include "picture_labels.h"
 #include "surface_labels.h"
 
+#include "../model/words.h"
+
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
 #include <asperity/optics/fresnel.h>
@@ -111,6 +113,9 @@ SurfaceScene::SurfaceScene(Workbench& workbench, QWidget* parent)
 void SurfaceScene::connect_workbench() {
     connect(&workbench_.document(), &Document::changed, this, &SurfaceScene::follow_settings);
     connect(&workbench_.surface(), &SurfaceSource::ready, this, &SurfaceScene::take_surface);
+    for (const auto signal : {&SurfaceSource::started, &SurfaceSource::ready})
+        connect(&workbench_.surface(), signal, viewport_, &Viewport::refresh_overlay);
+    connect(&workbench_.surface(), &SurfaceSource::failed, viewport_, &Viewport::refresh_overlay);
     connect(&workbench_.light(), &LightSeen::changed, this, [this] {
         take_paths();
         show_picture();
@@ -320,6 +325,9 @@ void SurfaceScene::paint_labels(QPainter& painter) const {
     if (workbench_.drawing().layers().head && !workbench_.are_layers_current())
         text += tr(" · drawn with other settings");
     paint_label(painter, area, Qt::AlignTop | Qt::AlignLeft, text);
+    if (const QString& trouble = workbench_.surface().trouble(); !trouble.isEmpty())
+        paint_label(painter, area.adjusted(0, 2 * em, 0, 0), Qt::AlignTop | Qt::AlignLeft,
+                    tr("Not made: %1").arg(in_words_of_forms(trouble)));
     paint_axis_cross(painter, area.bottomLeft() + QPointF(3, -3) * em, viewport_->shown_camera());
     if (!workbench_.light().paths().empty())
         paint_bounce_legend(painter, area.bottomLeft() + QPointF(6.5, -0.6) * em,

@@ -21,19 +21,6 @@ HeightsOptions options_of(const SurfaceSettings& settings) {
     return {settings.file_format, settings.file_channel, settings.file_decimal};
 }
 
-Heightfield ready_patch(Topography topography, const SurfaceSettings& settings, const Run& run) {
-    const bool finite = settings.tiling == Tiling::Finite || settings.boundary == Boundary::Finite;
-    if (finite || settings.tiling == Tiling::Mirrored) topography.boundary = Boundary::Finite;
-    if (settings.tiling == Tiling::Periodic && !finite) topography.boundary = Boundary::Periodic;
-    Heightfield surface = prepare(std::move(topography), settings.ready, settings.file, run);
-    for (float& h : surface.heights)
-        h = static_cast<float>(static_cast<double>(h) * settings.height_scale);
-    if (settings.diagonal == Diagonal::Main) surface.diagonal = Diagonal::Main;
-    if (surface.name.empty()) surface.name = settings.file;
-    validate(surface, settings.file);
-    return surface;
-}
-
 }  // namespace
 
 Topography read_topography(const SurfaceSettings& settings, Run& run) {
@@ -47,9 +34,22 @@ std::vector<HeightsChannel> list_channels(const SurfaceSettings& settings, Run& 
     return HeightsFormats().list(HeightsSource(settings.file, options_of(settings), run));
 }
 
+Heightfield patch_of(Topography topography, const SurfaceSettings& settings, const Run& run) {
+    const bool finite = settings.tiling == Tiling::Finite || settings.boundary == Boundary::Finite;
+    if (finite || settings.tiling == Tiling::Mirrored) topography.boundary = Boundary::Finite;
+    if (settings.tiling == Tiling::Periodic && !finite) topography.boundary = Boundary::Periodic;
+    Heightfield surface = prepare(std::move(topography), settings.ready, settings.file, run);
+    for (float& h : surface.heights)
+        h = static_cast<float>(static_cast<double>(h) * settings.height_scale);
+    if (settings.diagonal == Diagonal::Main) surface.diagonal = Diagonal::Main;
+    if (surface.name.empty()) surface.name = settings.file;
+    validate(surface, settings.file);
+    return surface;
+}
+
 Heightfield load_patch(const SurfaceSettings& settings, Run& run) {
     if (settings.kind != kSurfaceFile) return make_surface(settings, run);
-    return ready_patch(read_topography(settings, run), settings, run);
+    return patch_of(read_topography(settings, run), settings, run);
 }
 
 Heightfield tiled(Heightfield patch, const SurfaceSettings& settings) {
@@ -75,7 +75,7 @@ Heightfield tiled(Heightfield patch, const SurfaceSettings& settings) {
 
 Heightfield surface_of(Topography topography, const SurfaceSettings& settings) {
     apply_cell_size(topography, settings);
-    return tiled(ready_patch(std::move(topography), settings, Run()), settings);
+    return tiled(patch_of(std::move(topography), settings, Run()), settings);
 }
 
 Heightfield load_surface(const SurfaceSettings& settings, Run& run) {

@@ -20,6 +20,8 @@ Heightfield surface_of(Topography topography, const SurfaceSettings& settings);
 /// The two halves of load_surface: the surface of a file as it was measured, made ready as the
 /// settings say, and what fills the plane with it. A made surface is whole after the first.
 Heightfield load_patch(const SurfaceSettings& settings, Run& run);
+/// The first half from what read_topography(settings, run) gave.
+Heightfield patch_of(Topography topography, const SurfaceSettings& settings, const Run& run);
 Heightfield tiled(Heightfield patch, const SurfaceSettings& settings);
 
 /// Reads a topography as its file has it, by its content, else its ending, else as `options` say;
