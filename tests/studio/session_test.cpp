@@ -38,6 +38,8 @@ std::string another_value(const Param<StudioSettings>& key) {
                              "cook-torrance",
                              "student-t",
                              "student-t=0.5",
+                             "f0",
+                             "single",
                              "lambert:albedo=0.5",
                              "sky",
                              "aces",

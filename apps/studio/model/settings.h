@@ -2,6 +2,7 @@
 #pragma once
 
 #include <asperity/core/vec.h>
+#include <asperity/fit/fit.h>
 #include <asperity/gonio/experiment.h>
 #include <asperity/pictures/pictures.h>
 #include <asperity/render/camera.h>
@@ -125,6 +126,7 @@ struct StudioSettings {
     SurfaceView surface_view;
     ModelView model_view;
     PlotView plots;
+    FitSettings fit;  ///< of the dialog that fits models
 };
 
 }  // namespace asperity::studio

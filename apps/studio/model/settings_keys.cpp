@@ -223,6 +223,17 @@ void add_plots(ParamTable<S>& keys) {
     append(keys, overlay_keys("Plots"));
 }
 
+/// Those of fit_params() with "fit-" before their names: some are names of others, too.
+void add_fit(ParamTable<S>& keys) {
+    ParamTable<FitSettings> rows = fit_params();
+    for (Param<FitSettings>& row : rows) {
+        row.info.label = label(row.info);
+        row.info.name = "fit-" + row.info.name;
+        row.info.written_unless_default = true;
+    }
+    append(keys, rows, &S::fit);
+}
+
 ParamTable<S> make_table() {
     ParamTable<S> keys;
     Group(keys, "Window").choice("scene", at(&S::scene), kScenes);
@@ -231,6 +242,7 @@ ParamTable<S> make_table() {
     add_brdf(keys, "BRDF", "brdf-", &ModelView::brdf);
     add_brdf(keys, "The second BRDF of a comparison", "second-", &ModelView::second);
     add_plots(keys);
+    add_fit(keys);
     return keys;
 }
 

@@ -2,6 +2,7 @@
 // The menus Edit and Simulation.
 #include "bindings.h"
 #include "control_buttons.h"
+#include "fit_dialog.h"
 #include "main_window.h"
 #include "menus.h"
 #include "preferences.h"
@@ -81,6 +82,11 @@ void add_simulation_menu(MainWindow& window) {
                    [&document] { run_brdf(document, tr("Start BRDF"), true); });
     menu.addAction(tr("Stop BRDF"), &window,
                    [&document] { run_brdf(document, tr("Stop BRDF"), false); });
+    menu.addSeparator();
+    QAction* fit = menu.addAction(tr("Fit Models..."), &window,
+                                  [&window] { show_fit_dialog(window.workbench(), window); });
+    fit->setShortcut(QKeySequence("Ctrl+F"));
+    fit->setStatusTip(tr("The parameters with which models come nearest to a BRDF"));
     menu.addSeparator();
     menu.addAction(tr("Run Test"), &window, &MainWindow::run_test)
         ->setShortcut(QKeySequence("Ctrl+T"));

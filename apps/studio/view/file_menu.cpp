@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "export_dialog.h"
 #include "file_kinds.h"
 #include "file_questions.h"
 #include "main_window.h"
@@ -173,6 +174,11 @@ void add_file_menu(MainWindow& window) {
     add_session_commands(window, menu);
     add_import_commands(window, menu);
     menu.addAction(tr("Save Result..."), &window, [&window] { save_result(window); });
+    QAction* export_brdf = menu.addAction(tr("Export BRDF..."), &window, [&window] {
+        show_export_dialog(window.workbench(), window);
+    });
+    export_brdf->setShortcut(QKeySequence("Ctrl+E"));
+    export_brdf->setStatusTip(tr("For Mitsuba, Radiance, OpticStudio and others; read back"));
     menu.addAction(tr("Export Layers..."), &window, [&window] { export_layers(window); });
     menu.addAction(tr("Export Sky-Maps..."), &window, [&window] { export_sky_maps(window); })
         ->setStatusTip(tr("One PNG a layer, in a folder"));

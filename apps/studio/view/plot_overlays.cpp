@@ -53,8 +53,10 @@ OverlayModel overlay_model(const BsdfModel& model, const PlotView& view, double 
     if (given != view.overlay_settings.end())
         for (const auto& [key, text] : given->second)
             if (const BsdfParam* param = find_param(model, key)) {
+                // What the measurement has anyway needs no word
+                if (text != model_setting(all, model, *param) && text != param->otherwise)
+                    terms << term(key, text);
                 set_model_setting(all, model, *param, text);
-                terms << term(key, text);
             }
     if (model.with_alpha)
         for (const auto& [key, text] : model.with_alpha(alpha))

@@ -160,6 +160,11 @@ void check_keys(const std::vector<std::string>& keys, const std::vector<std::str
 }  // namespace
 
 FitReport fit_models(const FitData& data, const FitSettings& settings, int threads) {
+    Run run(threads);
+    return fit_models(data, settings, run);
+}
+
+FitReport fit_models(const FitData& data, const FitSettings& settings, Run& run) {
     FitReport report;
     report.metric = settings.metric;
     if (report.metric == FitMetric::Auto)
@@ -172,17 +177,21 @@ FitReport fit_models(const FitData& data, const FitSettings& settings, int threa
     const std::vector<std::string> texts = split_models(all ? bsdf_model_names() : settings.models);
     check_keys(also, texts);
     if (texts.empty()) throw Error(ErrorCode::Usage, "names no model", "model");
+    run.begin("fitting models", texts.size());
     for (const std::string& text : texts) {
+        if (!run.keep_going()) throw Error(ErrorCode::Stopped, "stopped while fitting");
         try {
             const FreeModel model = free_model(text, data, reflectance, also);
-            report.fits.push_back(fit_model(data, model, report.metric, threads));
+            report.fits.push_back(fit_model(data, model, report.metric, run.threads()));
             report.fits.back().text = text;
         } catch (const Error& error) {
             if (!all || error.code() != ErrorCode::Usage || error.where() == "metric" ||
                 error.where() == "free" || error.where() == "reflectance")
                 throw;
         }
+        run.advance(1);
     }
+    run.end();
     std::stable_sort(report.fits.begin(), report.fits.end(),
                      [](const Fit& a, const Fit& b) { return a.misfit < b.misfit; });
     report.verdict = verdict_of(report.fits);

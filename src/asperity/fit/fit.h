@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <asperity/core/run.h>
 #include <asperity/fit/fit_data.h>
 #include <asperity/fit/free_params.h>
 #include <asperity/params/param.h>
@@ -83,6 +84,8 @@ struct FitReport {
 /// Fits all that `settings` ask for. Throws Error(Usage, "name of the setting"); of "all"
 /// models those that the data do not go with are left out.
 FitReport fit_models(const FitData& data, const FitSettings& settings, int threads);
+/// The same with progress, a step a model, and a stop between two of them: Error(Stopped).
+FitReport fit_models(const FitData& data, const FitSettings& settings, Run& run);
 
 /// "chi2", "l2", "log", "cube-root".
 std::string fit_metric_name(FitMetric metric);
