@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace asperity {
 namespace {
+
+constexpr int kPasses = 6;  // leave 0.75^6 = 18 % of what misses most, light and dark cells in turn
 
 /// A number u in [0, 1) as an index into shares that rise to 1, and where it stands within it.
 struct Pick {
@@ -44,32 +47,38 @@ void accumulate_shares(std::span<double> weights, std::span<const double> otherw
     weights.back() = 1;
 }
 
-/// Mean of a linear interpolation over the cell of its middle node, in one dimension.
-double cell_mean(double before, double middle, double after) {
-    return 0.125 * before + 0.75 * middle + 0.125 * after;
+/// The weights of three nodes a cell apart at a place between the middle one's neighbours, -0.5 to
+/// 0.5 cells from it.
+std::array<double, 3> hats(double place) {
+    return {std::max(0.0, -place), 1 - std::abs(place), std::max(0.0, place)};
 }
 
-/// The cells of one channel, as rows and columns; columns run round, rows end.
-struct CellView {
-    const std::vector<double>& f;
-    std::size_t rows, columns;
-
-    double at(std::size_t row, std::size_t column) const { return f[row * columns + column]; }
-
-    /// cell_mean along the row.
-    double mean_along(std::size_t row, std::size_t column) const {
-        return cell_mean(at(row, (column + columns - 1) % columns), at(row, column),
-                         at(row, (column + 1) % columns));
+/// Adds what the shape is worth at n x n places of a cell to the weights of nine nodes; returns
+/// its least and its largest value.
+template <typename Shape>
+std::array<double, 2> add_places(const Detector& detector, std::size_t row, std::size_t column,
+                                 int n, const Shape& shape, std::array<float, 9>& weights) {
+    const double a = std::sin(detector.theta_edge(static_cast<int>(row)));
+    const double b = std::sin(detector.theta_edge(static_cast<int>(row) + 1));
+    const double turn = 2 * kPi / detector.columns();
+    std::array<double, 9> sums{};
+    std::array<double, 2> range{std::numeric_limits<double>::infinity(), 0};
+    for (int i = 0; i < n; ++i) {
+        const double u = (i + 0.5) / n, sin2 = a * a + u * (b * b - a * a);
+        const std::array<double, 3> along = hats(u - 0.5);
+        for (int j = 0; j < n; ++j) {
+            const double v = (j + 0.5) / n, phi = turn * (static_cast<double>(column) + v);
+            const double sine = std::sqrt(sin2);
+            const double value = shape(Vec3{sine * std::cos(phi), sine * std::sin(phi),
+                                            std::sqrt(std::max(0.0, 1 - sin2))});
+            range = {std::min(range[0], value), std::max(range[1], value)};
+            const std::array<double, 3> across = hats(v - 0.5);
+            for (std::size_t k = 0; k < 9; ++k) sums[k] += value * along[k / 3] * across[k % 3];
+        }
     }
-
-    /// cell_mean both ways; the first and the last row are their own neighbours.
-    double mean(std::size_t row, std::size_t column) const {
-        const std::size_t before = row == 0 ? row : row - 1;
-        const std::size_t after = row + 1 == rows ? row : row + 1;
-        return cell_mean(mean_along(before, column), mean_along(row, column),
-                         mean_along(after, column));
-    }
-};
+    for (std::size_t k = 0; k < 9; ++k) weights[k] = static_cast<float>(sums[k] / (n * n));
+    return range;
+}
 
 }  // namespace
 
@@ -109,8 +118,52 @@ CellBlend CellGrid::blend(Vec3 wo) const {
             {(1 - s) * (1 - t), (1 - s) * t, s * (1 - t), s * t}};
 }
 
+CellWeights::CellWeights(const Detector& detector)
+    : rows_(static_cast<std::size_t>(detector.rows())),
+      columns_(static_cast<std::size_t>(detector.columns())) {
+    // Of a linear interpolation over the cell of its middle node, both ways
+    constexpr std::array kLinear = {0.125f, 0.75f, 0.125f};
+    Nine all{};
+    for (std::size_t k = 0; k < 9; ++k) all[k] = kLinear[k / 3] * kLinear[k % 3];
+    weights_ = {all};
+}
+
+CellWeights::CellWeights(const Detector& detector, const LobeShape& shape) : CellWeights(detector) {
+    if (!shape) return;
+    constexpr double kEven = 1.15;  // a shape that varies less needs no closer look
+    constexpr int kFew = 2, kMany = 6;
+    weights_.resize(rows_ * columns_);
+    for (std::size_t row = 0; row < rows_; ++row) {
+        for (std::size_t column = 0; column < columns_; ++column) {
+            Nine& nine = weights_[row * columns_ + column];
+            const auto [least, most] = add_places(detector, row, column, kFew, shape, nine);
+            if (most > kEven * least) add_places(detector, row, column, kMany, shape, nine);
+        }
+    }
+}
+
+double CellWeights::mean(const std::vector<double>& nodes, std::size_t row,
+                         std::size_t column) const {
+    // The first and the last row are their own neighbours, columns run round.
+    const std::array<std::size_t, 3> rows = {row == 0 ? row : row - 1, row,
+                                             row + 1 == rows_ ? row : row + 1};
+    const std::array<std::size_t, 3> columns = {(column + columns_ - 1) % columns_, column,
+                                                (column + 1) % columns_};
+    const Nine& nine = of(row, column);
+    double sum = 0;
+    for (std::size_t k = 0; k < 9; ++k)
+        sum += static_cast<double>(nine[k]) * nodes[rows[k / 3] * columns_ + columns[k % 3]];
+    return sum;
+}
+
+double CellWeights::mean_of_shape(std::size_t row, std::size_t column) const {
+    double sum = 0;
+    for (const float weight : of(row, column)) sum += static_cast<double>(weight);
+    return sum;
+}
+
 LayerTable::LayerTable(std::shared_ptr<const CellGrid> grid, const Measurement& measurement,
-                       const Layer& layer)
+                       const Layer& layer, const LobeShape& shape)
     : grid_(std::move(grid)), channels_(static_cast<std::size_t>(measurement.channels())) {
     const Detector& detector = grid_->detector();
     const std::size_t rows = static_cast<std::size_t>(detector.rows());
@@ -118,38 +171,48 @@ LayerTable::LayerTable(std::shared_ptr<const CellGrid> grid, const Measurement& 
     const std::size_t cells = rows * columns;
     const bool has_errors = !layer.stderr_energy.empty();
 
+    const CellWeights weights(detector, shape);
     f_.resize((cells + 1) * channels_);
-    std::vector<double> measured(cells), all_channels(cells, 0.0);
+    std::vector<double> nodes(cells), all_channels(cells, 0.0);
     for (std::size_t channel = 0; channel < channels_; ++channel) {
         const int c = static_cast<int>(channel);
+        const auto measured = [&](std::size_t cell) {
+            return measurement.brdf(layer, c, static_cast<int>(cell));
+        };
         for (std::size_t cell = 0; cell < cells; ++cell)
-            measured[cell] = measurement.brdf(layer, c, static_cast<int>(cell));
-        const CellView view{measured, rows, columns};
+            nodes[cell] = measured(cell) / weights.mean_of_shape(cell / columns, cell % columns);
+        for (int pass = 0; pass < kPasses; ++pass) {
+            std::vector<double> raised = nodes;
+            for (std::size_t cell = 0; cell < cells; ++cell) {
+                // Raise the node by what the mean over the cell misses, beyond twice its error.
+                const std::size_t row = cell / columns, column = cell % columns;
+                const double missing = measured(cell) - weights.mean(nodes, row, column);
+                const double error =
+                    has_errors ? measurement.brdf_stderr(layer, c, static_cast<int>(cell)) : 0.0;
+                const double certain =
+                    std::copysign(std::max(0.0, std::abs(missing) - 2 * error), missing);
+                raised[cell] += certain / weights.mean_of_shape(row, column);
+                raised[cell] = std::max(0.0, raised[cell]);
+            }
+            nodes = std::move(raised);
+        }
         double pole = 0;
         for (std::size_t cell = 0; cell < cells; ++cell) {
-            // Raise the node by what the mean over the cell would miss, beyond twice its error.
-            const double missing = measured[cell] - view.mean(cell / columns, cell % columns);
-            const double error =
-                has_errors ? measurement.brdf_stderr(layer, c, static_cast<int>(cell)) : 0.0;
-            const double certain =
-                std::copysign(std::max(0.0, std::abs(missing) - 2 * error), missing);
-            const double node = std::max(0.0, measured[cell] + certain);
-            f_[cell * channels_ + channel] = static_cast<float>(node);
-            all_channels[cell] += node;
+            f_[cell * channels_ + channel] = static_cast<float>(nodes[cell]);
+            all_channels[cell] += nodes[cell];
             // At the pole all columns meet: their mean.
-            if (cell < columns) pole += node / static_cast<double>(columns);
+            if (cell < columns) pole += nodes[cell] / static_cast<double>(columns);
         }
         f_[cells * channels_ + channel] = static_cast<float>(pole);
         albedo_.push_back(measurement.albedo(layer, c));
     }
-    build_distribution(all_channels);
+    build_distribution(weights, all_channels);
 }
 
-void LayerTable::build_distribution(const std::vector<double>& f) {
+void LayerTable::build_distribution(const CellWeights& weights, const std::vector<double>& f) {
     const Detector& detector = grid_->detector();
     const std::size_t rows = static_cast<std::size_t>(detector.rows());
     const std::size_t columns = static_cast<std::size_t>(detector.columns());
-    const CellView view{f, rows, columns};
     // Where no light left, spread the samples as from a diffuse surface.
     const std::vector<double> even(columns, 1.0);
     std::vector<double> diffuse;
@@ -159,7 +222,7 @@ void LayerTable::build_distribution(const std::vector<double>& f) {
         const double size = detector.projected_solid_angle(static_cast<int>(row));
         double total = 0;
         for (std::size_t column = 0; column < columns; ++column) {
-            part[column] = view.mean(row, column) * size;
+            part[column] = weights.mean(f, row, column) * size;
             total += part[column];
         }
         rows_.push_back(total);

@@ -4,6 +4,7 @@
 #include <asperity/gonio/measurement.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -36,18 +37,44 @@ class CellGrid {
     std::vector<double> theta_nodes_;  ///< of the rows
 };
 
-/// The BRDF of one layer of a measurement: interpolated, and sampled by its energy.
+/// How a layer's lobe is shaped at the direction wo, within and across its cells.
+using LobeShape = std::function<double(Vec3 wo)>;
+
+/// The mean over each cell of an interpolation between nodes, times a shape.
+class CellWeights {
+  public:
+    /// Of the shape 1.
+    explicit CellWeights(const Detector& detector);
+    CellWeights(const Detector& detector, const LobeShape& shape);
+
+    double mean(const std::vector<double>& nodes, std::size_t row, std::size_t column) const;
+    /// Of the shape alone.
+    double mean_of_shape(std::size_t row, std::size_t column) const;
+
+  private:
+    using Nine = std::array<float, 9>;  ///< of the node and its neighbours, row by row
+    const Nine& of(std::size_t row, std::size_t column) const {
+        return weights_.size() == 1 ? weights_[0] : weights_[row * columns_ + column];
+    }
+
+    std::size_t rows_, columns_;
+    std::vector<Nine> weights_;  ///< of each cell, or of all alike
+};
+
+/// The BRDF of one layer of a measurement over a shape that is known beforehand (1, without): the
+/// quotient is interpolated, and sampled by its energy.
 ///
 /// The nodes are not the measured means themselves: a linear interpolation between those would
 /// flatten every peak. They are raised where the surface is curved, so that the mean of the
-/// interpolation over a cell comes back to what was measured; only as far as the curvature stands
-/// out of the error bars, so noise is not raised.
+/// interpolation, times the shape, over a cell comes back to what was measured; only as far as the
+/// curvature stands out of the error bars, so noise is not raised.
 class LayerTable {
   public:
     LayerTable(std::shared_ptr<const CellGrid> grid, const Measurement& measurement,
-               const Layer& layer);
+               const Layer& layer, const LobeShape& shape = nullptr);
 
-    /// Interpolated f [1/sr] per channel.
+    std::size_t channels() const { return channels_; }
+    /// Interpolated f / shape [1/sr] per channel.
     void eval(Vec3 wo, std::span<double> f) const;
     double albedo(std::size_t channel) const { return albedo_[channel]; }
 
@@ -58,7 +85,7 @@ class LayerTable {
     double pdf(Vec3 wo) const;
 
   private:
-    void build_distribution(const std::vector<double>& f);
+    void build_distribution(const CellWeights& weights, const std::vector<double>& f);
 
     std::shared_ptr<const CellGrid> grid_;
     std::size_t channels_;

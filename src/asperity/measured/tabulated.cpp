@@ -5,6 +5,7 @@
 #include <asperity/core/error.h>
 #include <asperity/core/parallel.h>
 #include <asperity/measured/layer_table.h>
+#include <asperity/measured/lobe_guide.h>
 #include <asperity/measured/tabulated.h>
 
 #include <fmt/format.h>
@@ -18,16 +19,11 @@ namespace {
 
 constexpr double kSameAngle = 1e-9;  ///< [rad]
 
+/// A layer as steep as this [rad] shows the distribution of normals.
+constexpr double kNearNormal = 0.2;
+
 /// Share of the samples drawn from a cosine, so that no direction with light is left out.
 constexpr double kCosineShare = 0.1;
-
-/// The cosine, clamped away from zero. A facet mirrors f ~ 1 / (cos_i cos_o) where neighbours do
-/// not hide it, and much less near the horizon where they do: f times these is what changes least
-/// from one incident angle to the next.
-double soft_cosine(double cosine) {
-    constexpr double kSoftness = 0.15;
-    return std::sqrt(cosine * cosine + kSoftness * kSoftness);
-}
 
 /// How much a layer is worth where its own light leaves with this cosine: less near the horizon,
 /// next to nothing below, but never nothing, so that one layer alone still counts.
@@ -128,8 +124,9 @@ class TabulatedBrdf final : public Bsdf {
     int channels_;
     std::string name_;
     std::vector<double> thetas_, phis_;  ///< of the layers, rising
-    std::vector<LayerTable> tables_;     ///< [theta * phis + phi]
-    bool relative_ = false;              ///< one azimuth stands for all
+    std::vector<LayerTable> tables_;     ///< [theta * phis + phi], over the guide
+    LobeGuide guide_;
+    bool relative_ = false;  ///< one azimuth stands for all
 
     // What brings the albedo of the blend to the blend of the albedos:
     // [(theta * phi nodes + phi) * channels + channel].
@@ -160,18 +157,27 @@ void TabulatedBrdf::read_layers(const Measurement& measurement) {
     relative_ = phis_.size() == 1;
 
     const auto grid = std::make_shared<const CellGrid>(measurement.detector);
+    const auto layer_at = [&](double theta, double phi) -> const Layer& {
+        for (const Layer& layer : measurement.layers) {
+            if (std::abs(layer.theta_i - theta) <= kSameAngle &&
+                std::abs(positive_azimuth(layer.phi_i) - phi) <= kSameAngle)
+                return layer;
+        }
+        reject(
+            fmt::format("its layers do not form a grid: none at theta {:.6g}, phi {:.6g} degrees",
+                        degrees(theta), degrees(phi)));
+    };
+    if (thetas_.front() <= kNearNormal) {
+        const Layer& steepest = layer_at(thetas_.front(), phis_.front());
+        guide_ = LobeGuide(LayerTable(grid, measurement, steepest),
+                           from_spherical(thetas_.front(), phis_.front()));
+    }
     for (const double theta : thetas_)
         for (const double phi : phis_) {
-            const Layer* found = nullptr;
-            for (const Layer& layer : measurement.layers)
-                if (std::abs(layer.theta_i - theta) <= kSameAngle &&
-                    std::abs(positive_azimuth(layer.phi_i) - phi) <= kSameAngle)
-                    found = &layer;
-            if (!found)
-                reject(fmt::format(
-                    "its layers do not form a grid: none at theta {:.6g}, phi {:.6g} degrees",
-                    degrees(theta), degrees(phi)));
-            tables_.emplace_back(grid, measurement, *found);
+            const Vec3 wi = from_spherical(theta, phi);
+            const LobeShape shape = [&, wi](Vec3 wo) { return guide_(wi, wo, wi + wo); };
+            tables_.emplace_back(grid, measurement, layer_at(theta, phi),
+                                 guide_.is_known() ? shape : nullptr);
         }
 }
 
@@ -179,8 +185,14 @@ void TabulatedBrdf::read_layers(const Measurement& measurement) {
 /// together, find by how much it misses, while the corrections are still empty.
 void TabulatedBrdf::normalise(const Run& run) {
     // With a second dimension to cover, coarser steps keep the cost of it within seconds.
-    const FibonacciLattice lattice = relative_ ? kMediumLattice : kCoarseLattice;
+    const FibonacciLattice lattice =
+        relative_ ? (guide_.is_known() ? kFineLattice : kMediumLattice) : kCoarseLattice;
     std::vector<double> theta_nodes = refine(thetas_, 0, 0.5 * kPi, radians(relative_ ? 1.5 : 3));
+    if (relative_) {  // towards the horizon, where most changes
+        for (double deg = 78; deg < 90; deg += deg < 87 ? 0.5 : 0.25)
+            theta_nodes.push_back(radians(deg));
+        theta_nodes = distinct(std::move(theta_nodes));
+    }
     std::vector<double> phi_nodes = phis_;
     if (!relative_) {
         phi_nodes = refine(phis_, phis_.front(), phis_.front() + 2 * kPi, radians(22.5));
@@ -198,7 +210,10 @@ void TabulatedBrdf::normalise(const Run& run) {
         const Vec3 wi = from_spherical(theta, phi_nodes[k % phi_nodes.size()]);
         std::vector<double> wanted(channels), present(channels);
         albedo(wi, wanted);
-        albedo_by_sampling(*this, wi, lattice, present);
+        if (guide_.is_known())
+            guide_.albedo_over_facets(*this, wi, lattice, present);
+        else
+            albedo_by_sampling(*this, wi, lattice, present);
         for (std::size_t c = 0; c < channels; ++c)
             if (present[c] > 0) corrections[k * channels + c] = wanted[c] / present[c];
     });
@@ -242,12 +257,12 @@ void TabulatedBrdf::eval(Vec3 wi, Vec3 wo, std::span<double> f) const {
         const Vec3 wo_there = reflect(corner.wi, wm);
         corner.table->eval(wo_there, layer_f);
         const double trust = corner.weight * trust_at(wo_there.z);
-        const double weight =
-            trust * soft_cosine(corner.wi.z) * soft_cosine(std::max(0.0, wo_there.z));
+        // Without a guide the tables hold f itself.
+        const double weight = guide_.is_known() ? trust : trust / guide_(corner.wi, wo_there, wm);
         for (std::size_t c = 0; c < f.size(); ++c) f[c] += weight * layer_f[c];
         trusted += trust;
     }
-    const double scale = 1 / (soft_cosine(wi.z) * soft_cosine(wo.z) * trusted);
+    const double scale = guide_(wi_turned, wo_turned, wm) / trusted;
     for (double& value : f) value *= scale;
 
     if (corrections_.empty()) return;

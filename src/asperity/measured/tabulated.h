@@ -14,9 +14,11 @@ namespace asperity {
 /// Between layers (theta_i, and phi_i when several were measured, which runs round): for wi and wo,
 /// every neighbouring layer is asked for the direction into which the facet that mirrors wi to wo
 /// sends the layer's own light. There its lobe has the same place, so lobes move with the light
-/// instead of fading one into another; f times both cosines, clamped away from zero, is what is
-/// blended. Where a layer's direction falls below the horizon the other layers count. A factor
-/// found for incident directions 1.5 degrees apart then makes the albedo the blend of the layers'
+/// instead of fading one into another; f over what all layers share is blended (lobe_guide.h):
+/// where a layer is within 11 degrees of the normal and shows facets of alpha below 0.25, over
+/// D(wm) / (sigma(wi) sigma(wo)), which keeps lobes that are narrower than the cells; elsewhere f
+/// times both cosines, clamped away from zero. Where a layer's direction falls below the horizon the other layers count. A factor
+/// found for incident directions 1.5 degrees apart, less towards the horizon, then makes the albedo the blend of the layers'
 /// albedos. Light sent straight back (grooves) does not follow the mirror: between layers it may
 /// double.
 ///

@@ -110,6 +110,32 @@ TEST(TabulatedTest, AlbedoIsTheBlendOfTheLayersAlbedos) {
     }
 }
 
+// At grazing incidence a lobe of alpha 0.1 is 0.85 degrees wide across the plane of incidence, a
+// cell 2.8: what light from above shows of the facets is in the table of every layer.
+TEST(TabulatedTest, GrazingLobesNarrowerThanCells) {
+    const auto model = parse_brdf_spec("beckmann:alpha=0.1");
+    const Detector detector{DetectorSettings{}};
+    const auto with_normal =
+        make_tabulated_brdf(test::measurement_of(*model, layers_at({0, 72, 78, 84}, {0}, 128)));
+    const auto without =
+        make_tabulated_brdf(test::measurement_of(*model, layers_at({72, 78, 84}, {0}, 128)));
+    struct Row {
+        double theta_deg, most, without;
+    };
+    for (const Row& row :
+         {Row{84, 0.01, 0.1}, {75, 0.01, 0.05}, {81, 0.015, 0.15}, {87, 0.03, 0.05}}) {
+        EXPECT_LT(relative_l1(*model, *with_normal, row.theta_deg, 0, 128), row.most)
+            << row.theta_deg;
+        EXPECT_GT(relative_l1(*model, *without, row.theta_deg, 0, 128), row.without)
+            << row.theta_deg;  // or the test shows nothing
+        double promised = 0;
+        with_normal->albedo(from_spherical(radians(row.theta_deg), 1), {&promised, 1});
+        const CellAverages averages =
+            average_over_cells(*with_normal, detector, radians(row.theta_deg), 1, false, 2);
+        EXPECT_NEAR(averages.albedo[0], promised, 1e-3) << row.theta_deg;
+    }
+}
+
 TEST(TabulatedTest, LambertStaysLambert) {
     const auto model = parse_brdf_spec("lambert:albedo=0.6");
     const auto table =
