@@ -25,15 +25,14 @@ constexpr double kMostOfSecond = 1 << 21;
 constexpr double kTrySeconds = 0.7;  ///< what the second try may cost
 
 double rays_per_layer(const Experiment& e, const Heightfield& surface) {
-    return e.run.rays > 0
-               ? static_cast<double>(e.run.rays)
-               : jitter_of(e.run, surface.cell_count()) * static_cast<double>(surface.cell_count());
+    return rays_wanted(e.run, surface.cell_count());
 }
 
 /// The first, the middle and the last direction, with so many rays each.
 Experiment small(const Experiment& experiment, std::uint64_t rays) {
     Experiment e = experiment;
     e.run.until = 0;
+    e.run.surfaces = 1;
     e.run.rays = rays;
     e.run.batches = 2;
     e.detector.resolution = std::min(e.detector.resolution, 32);

@@ -131,6 +131,12 @@ std::optional<LayerSums> sum_over_ranks(const std::optional<LayerSums>& mine, co
         sums.stretched.resize(sums.squares.size());
         reducer.sum(sums.stretched);
     }
+    if (any(!sums.halves.cells.empty(), ranks)) {
+        sums.halves.cells.resize(sums.squares.size());
+        sums.halves.albedo.resize(sums.albedo.size());
+        reducer.sum(sums.halves.cells);
+        reducer.sum(sums.halves.albedo);
+    }
     reducer.sum(sums.bounces);
     reducer.sum(sums.albedo);
     return sums;

@@ -130,18 +130,22 @@ void share_evenly(std::uint64_t* values, std::size_t count, std::size_t stride) 
     for (std::size_t k = 0; k < count; ++k) values[k * stride] = each + (k < more ? 1 : 0);
 }
 
+void BatchSums::weigh() {
+    if (!counted_ || count_.empty()) return;
+    const std::size_t order = shape_.places() * shape_.values();
+    energy_.resize(shape_.orders * order);
+    for_touched([&](std::size_t begin, std::size_t end, std::uint8_t bits) {
+        for (std::size_t o = 0; o < shape_.orders; ++o)
+            if (bits & bit_of(o))
+                for (std::size_t k = o * order + begin; k < o * order + end; ++k)
+                    energy_[k] = std::exchange(count_[k], 0u) * kRayEnergy;
+    });
+    counted_ = false;
+}
+
 void BatchSums::share_rows(std::size_t columns) {
     const std::size_t values = shape_.values(), order = shape_.places() * values;
-    if (counted_ && !count_.empty()) {
-        energy_.resize(shape_.orders * order);
-        for_touched([&](std::size_t begin, std::size_t end, std::uint8_t bits) {
-            for (std::size_t o = 0; o < shape_.orders; ++o)
-                if (bits & bit_of(o))
-                    for (std::size_t k = o * order + begin; k < o * order + end; ++k)
-                        energy_[k] = std::exchange(count_[k], 0u) * kRayEnergy;
-        });
-        counted_ = false;
-    }
+    weigh();
     if (counted_) return;
     for (std::size_t first = 0; first < shape_.places(); first += columns) {
         const std::size_t begin = first / kBlock, end = (first + columns - 1) / kBlock + 1;
@@ -154,6 +158,69 @@ void BatchSums::share_rows(std::size_t columns) {
                 for (std::size_t v = 0; v < values; ++v)
                     share_evenly(&energy_[o * order + first * values + v], columns, values);
     }
+}
+
+BatchSums& BatchSums::operator+=(const BatchSums& other) {
+    const std::size_t order = shape_.places() * shape_.values();
+    const bool paths = other.counted_ ? !other.count_.empty() : !other.energy_.empty();
+    if (!other.counted_) weigh();
+    if (paths && counted_ && other.counted_) count_.resize(other.count_.size());
+    if (paths && !other.counted_) {
+        energy_.resize(other.energy_.size());
+        counted_ = false;
+    }
+    other.for_touched([&](std::size_t begin, std::size_t end, std::uint8_t bits) {
+        touched_[begin / (kBlock * shape_.values())] |= bits;
+        for (std::size_t o = 0; o < shape_.orders; ++o) {
+            if (!(bits & bit_of(o))) continue;
+            for (std::size_t k = o * order + begin; k < o * order + end; ++k)
+                if (counted_)
+                    count_[k] += other.count_[k];
+                else
+                    energy_[k] +=
+                        other.counted_ ? other.count_[k] * kRayEnergy : other.energy_[k];
+        }
+    });
+    const auto add = [](std::vector<std::uint64_t>& sum, const std::vector<std::uint64_t>& more) {
+        for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += more[k];
+    };
+    add(escaped_by_bounce_, other.escaped_by_bounce_);
+    add(absorbed_, other.absorbed_);
+    add(truncated_, other.truncated_);
+    add(edge_, other.edge_);
+    rays += other.rays;
+    segments += other.segments;
+    reflections += other.reflections;
+    stuck += other.stuck;
+    spread_ += other.spread_;
+    if (other.spread_light_) spread_light_ = other.spread_light_;
+    return *this;
+}
+
+void BatchSums::for_totals(std::vector<std::uint64_t>& totals, int sign) const {
+    const std::size_t values = shape_.values(), order = shape_.places() * values;
+    // In two's complement, so what is taken away may be more than there is
+    const auto factor = static_cast<std::uint64_t>(std::int64_t{sign});
+    if (counted_ ? !count_.empty() : !energy_.empty())
+        for_touched([&](std::size_t begin, std::size_t end, std::uint8_t bits) {
+            for (std::size_t o = 0; o < shape_.orders; ++o)
+                if (bits & bit_of(o))
+                    for (std::size_t k = begin; k < end; ++k)
+                        totals[k] += factor * (counted_ ? count_[o * order + k] * kRayEnergy
+                                                        : energy_[o * order + k]);
+        });
+    if (spread_ == 0) return;
+    for (std::size_t p = 0; p < spread_light_->places.size(); ++p)
+        for (std::size_t v = 0; v < values; ++v)
+            totals[spread_light_->places[p] * values + v] +=
+                factor * spread_ * spread_light_->energy[p * values + v];
+}
+
+std::vector<std::uint64_t> BatchSums::escaped() const {
+    std::vector<std::uint64_t> sums(shape_.sides * shape_.values());
+    for (std::size_t k = 0; k < escaped_by_bounce_.size(); ++k)
+        sums[k / shape_.bounces] += escaped_by_bounce_[k];
+    return sums;
 }
 
 void BatchSums::clear() {

@@ -74,6 +74,15 @@ class BatchSums {
     /// Shares what paths have brought to `columns` places, one row after the other, out among them:
     /// where the light does not tell one azimuth from another. Once, when all paths have left.
     void share_rows(std::size_t columns);
+    /// Adds what other rays of the same surface and light have brought, where both together are at
+    /// most 2^20.
+    BatchSums& operator+=(const BatchSums& other);
+    /// Adds to totals[place * values + value] what came there over all orders, spread light
+    /// included, or takes it away.
+    void add_to(std::vector<std::uint64_t>& totals) const { for_totals(totals, 1); }
+    void take_from(std::vector<std::uint64_t>& totals) const { for_totals(totals, -1); }
+    /// Energy that left to all places: [side * values + value].
+    std::vector<std::uint64_t> escaped() const;
     /// Forgets everything; cost: the cells touched, and their neighbours.
     void clear();
 
@@ -90,6 +99,9 @@ class BatchSums {
     /// value.
     template <class Work>
     void for_touched(Work work) const;
+    void for_totals(std::vector<std::uint64_t>& totals, int sign) const;
+    /// From numbers of paths to their energies.
+    void weigh();
     /// Books the paths' energy under `account` and the rest of it as absorbed.
     void settle(std::vector<std::uint64_t>& account, const std::int32_t* paths, std::size_t count,
                 Weights weights);

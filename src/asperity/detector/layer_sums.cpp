@@ -98,6 +98,25 @@ void LayerSums::add(std::uint64_t number, const BatchSums& b) {
         add.operator()<1>(b.energy_);
 }
 
+void LayerSums::add_halves(std::uint64_t number, BatchSums& first, const BatchSums& second) {
+    // In two's complement; squares do not ask for the sign
+    std::vector<std::uint64_t> difference(squares.size());
+    first.add_to(difference);
+    second.take_from(difference);
+    std::vector<std::uint64_t> escaped = first.escaped();
+    const std::vector<std::uint64_t> of_second = second.escaped();
+    for (std::size_t k = 0; k < escaped.size(); ++k) escaped[k] -= of_second[k];
+    first += second;
+    add(number, first);
+    const auto add = [](std::vector<Wide>& sums, const std::vector<std::uint64_t>& differences) {
+        sums.resize(differences.size());
+        for (std::size_t k = 0; k < sums.size(); ++k)
+            if (differences[k] != 0) sums[k] += square(differences[k]);
+    };
+    add(halves.cells, difference);
+    add(halves.albedo, escaped);
+}
+
 void LayerSums::add_spreads(const BatchSums& b) {
     for (std::size_t k = 0; k < bounces.size(); ++k)
         add_to(bounces[k], scaled(b.escaped_by_bounce_[k], b.rays));
@@ -112,6 +131,8 @@ template <std::uint64_t kUnit, class Value>
 void LayerSums::add_places(const BatchSums& b, const std::vector<Value>& paths) {
     Wide* products = nullptr;
     if (b.spread_ > 0) {
+        // Surfaces of their own spread light in ways of their own
+        if (waiting_.light && waiting_.light != b.spread_light_) settle();
         waiting_.light = b.spread_light_;
         waiting_.count += b.spread_;
         waiting_.squares += Wide{b.spread_} * b.spread_;
@@ -204,6 +225,8 @@ LayerSums& LayerSums::operator+=(const LayerSums& other) {
     add_to(stretched, other.stretched);
     add_to(bounces, other.bounces);
     add_to(albedo, other.albedo);
+    add_to(halves.cells, other.halves.cells);
+    add_to(halves.albedo, other.halves.albedo);
     return *this;
 }
 

@@ -46,10 +46,21 @@ struct LayerSums {
     std::vector<Spread> bounces;  ///< of escaped_by_bounce
     std::vector<Spread> albedo;   ///< of the sum over its orders: [side * values + value]
 
+    /// Squares of the difference between the halves of each batch, like `squares` and `albedo`:
+    /// that of their rays alone, where batches have surfaces of their own. Empty without halves.
+    struct Halves {
+        std::vector<Wide> cells, albedo;
+        bool operator==(const Halves&) const = default;
+    };
+    Halves halves;
+
     std::uint64_t batches() const { return done.count(); }
 
     /// Throws Error(Usage) if the batch of this number is in here already.
     void add(std::uint64_t number, const BatchSums& batch);
+    /// The same for a batch of two halves of as many rays each on one surface; `first` holds both
+    /// afterwards.
+    void add_halves(std::uint64_t number, BatchSums& first, const BatchSums& second);
     /// Settles both. Throws Error(Usage) if the shapes or the largest batches differ, as they are
     /// not of one layer, or if both have a batch in common: then nothing is added.
     LayerSums& operator+=(const LayerSums& other);

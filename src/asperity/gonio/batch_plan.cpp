@@ -16,9 +16,7 @@ constexpr std::uint64_t kLargestBatch = 1 << 20;
 }  // namespace
 
 BatchPlan::BatchPlan(std::uint64_t cells, const RunSettings& run) {
-    const double jitter = jitter_of(run, cells);
-    const double wanted =
-        run.rays > 0 ? static_cast<double>(run.rays) : jitter * static_cast<double>(cells);
+    const double jitter = jitter_of(run, cells), wanted = rays_wanted(run, cells);
     if (wanted > static_cast<double>(kMaxRaysPerLayer))
         throw Error(ErrorCode::Usage,
                     fmt::format("{} launch points per cell are {:.3g} rays a layer, more than {}",
@@ -27,7 +25,31 @@ BatchPlan::BatchPlan(std::uint64_t cells, const RunSettings& run) {
     rays = std::max<std::uint64_t>(2, static_cast<std::uint64_t>(std::llround(wanted)));
     batches = std::min<std::uint64_t>(static_cast<std::uint64_t>(run.batches), rays);
     batches = std::max(batches, (rays + kLargestBatch - 1) / kLargestBatch);
+    if (const std::uint64_t surfaces = surfaces_of(run, cells); surfaces > 1)
+        share_out_to(surfaces);
     limit = run.max_rays > 0 ? run.max_rays : std::min(kMaxRaysPerLayer, 256 * rays);
+    // Random numbers are told apart by 2^24 batches, or halves of them
+    constexpr std::uint64_t kMostSurfaces = 1 << 23;
+    if (of_class) limit = std::min(limit, kMostSurfaces * largest());
+}
+
+void BatchPlan::share_out_to(std::uint64_t surfaces) {
+    const auto refuse = [&](const char* what, std::uint64_t bound, std::uint64_t best) {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("{} rays a layer leave each of {} surfaces {} than {} rays: ask "
+                                "for {} {} surfaces",
+                                rays, surfaces, what, bound, *what == 'f' ? "at most" : "at least",
+                                best),
+                    "surfaces");
+    };
+    if (rays < 2 * surfaces) refuse("fewer", 2, std::max<std::uint64_t>(1, rays / 2));
+    // Halves of a batch are compared, so they have as many rays each
+    const std::uint64_t each = 2 * ((rays + surfaces) / (2 * surfaces));
+    if (each > kLargestBatch)
+        refuse("more", kLargestBatch, (rays + kLargestBatch - 1) / kLargestBatch);
+    of_class = true;
+    batches = surfaces;
+    rays = each * surfaces;
 }
 
 BatchRange BatchPlan::round_of(std::uint64_t end) const {

@@ -12,12 +12,15 @@ namespace asperity {
 /// How the rays of a layer are divided into independent batches. Depends on the settings and on
 /// the number of cells alone, so every part of a run makes the same plan.
 struct BatchPlan {
-    /// Throws Error(Usage, "jitter") for more rays than a layer can count.
+    /// Throws Error(Usage, "jitter") for more rays than a layer can count, and Error(Usage,
+    /// "surfaces") for rays that are too few, or too many, for each of several surfaces.
     BatchPlan(std::uint64_t cells, const RunSettings& run);
 
     std::uint64_t rays = 0;     ///< of the first round of batches
     std::uint64_t batches = 0;  ///< in the first round
     std::uint64_t limit = 0;    ///< rays of a layer at most
+    /// Each batch has a surface of its own, and an even number of rays, the same for all.
+    bool of_class = false;
 
     /// Rays of batch b: all alike, the first ones of a round one more if they must.
     std::uint64_t rays_of(std::uint64_t b) const {
@@ -36,6 +39,9 @@ struct BatchPlan {
     /// Batches to add to so many, of so many rays, where they were not enough: as many again, or
     /// what the limit leaves room for.
     std::uint64_t more(std::uint64_t so_far, std::uint64_t of_rays) const;
+
+  private:
+    void share_out_to(std::uint64_t surfaces);
 };
 
 }  // namespace asperity

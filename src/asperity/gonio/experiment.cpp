@@ -3,9 +3,11 @@
 
 #include <asperity/core/error.h>
 #include <asperity/gonio/experiment_params.h>
+#include <asperity/surface/surface_kinds.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace asperity {
 
@@ -48,10 +50,38 @@ double jitter_of(const RunSettings& run, std::uint64_t cells) {
     return run.rays > 0 ? kJitter : default_jitter(cells);
 }
 
+double rays_wanted(const RunSettings& run, std::uint64_t cells) {
+    return run.rays > 0 ? static_cast<double>(run.rays)
+                        : jitter_of(run, cells) * static_cast<double>(cells);
+}
+
+std::uint64_t surfaces_of_rays(double rays, std::uint64_t cells) {
+    constexpr double kCellsPerRayOfClass = 2, kFewest = 16, kMost = 4096;
+    return static_cast<std::uint64_t>(std::llround(std::clamp(
+        rays * kCellsPerRayOfClass / static_cast<double>(cells), kFewest, kMost)));
+}
+
+std::uint64_t surfaces_of(const RunSettings& run, std::uint64_t cells) {
+    return run.surfaces > 0 ? run.surfaces : surfaces_of_rays(rays_wanted(run, cells), cells);
+}
+
+std::string only_surface(const SurfaceSettings& surface) {
+    if (surface.kind == kSurfaceFile)
+        return "a file holds one surface: of a class of them, measure each and compare";
+    if (!surface_uses(surface.kind, "surface-seed"))
+        return fmt::format("all surfaces of kind {} are the same: there is no seed to it",
+                           surface.kind);
+    return {};
+}
+
 void validate(const Experiment& experiment) {
     validate(experiment.illumination);
     check_all(detector_params(), experiment.detector);
     validate(experiment.run);
+    if (experiment.run.surfaces != 1) {
+        const std::string why = only_surface(experiment.surface);
+        require(why.empty(), "surfaces", why);
+    }
 }
 
 }  // namespace asperity

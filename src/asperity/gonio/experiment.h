@@ -13,7 +13,10 @@
 namespace asperity {
 
 struct RunSettings {
-    /// Camera Jitter J: launch points per surface cell and layer; 0: as jitter_of() says.
+    /// Realisations of the surface a layer is measured on, see surfaces_of(); 0: surfaces_of_rays().
+    std::uint64_t surfaces = 1;
+    /// Camera Jitter J: launch points per surface cell and layer; 0: as jitter_of() says. All
+    /// surfaces share them.
     double jitter = 0;
     std::uint64_t rays = 0;      ///< per layer; 0: jitter x cells
     double until = 0;            ///< relative error of the albedo to reach, 0: none. See measure()
@@ -22,7 +25,9 @@ struct RunSettings {
     int bounces = 16;            ///< Ray Bounces B: reflections a ray may make, >= 1
     LaunchPattern launch = LaunchPattern::LowDiscrepancy;
     std::string engine = "wide";  ///< as tracing/engine.h lists them
-    int batches = 16;  ///< independent batches a layer, >= 2, from which errors are estimated
+    /// Independent batches a layer, >= 2, from which errors are estimated; each of several surfaces
+    /// is one, whatever this says.
+    int batches = 16;
     std::uint64_t seed = 1;
 };
 
@@ -36,6 +41,25 @@ double default_jitter(std::uint64_t cells);
 /// with a number of `rays` of its own. The one place that says so, for library, programs and
 /// studio: measure() and head_of() write it into the experiment of their results.
 double jitter_of(const RunSettings& run, std::uint64_t cells);
+
+/// Rays of a layer that a run asks for, in a first estimate.
+double rays_wanted(const RunSettings& run, std::uint64_t cells);
+
+/// The number of surfaces that so many rays of a layer are best shared out to: a ray for every
+/// kCellsPerRayOfClass cells of a surface, and 16 to 4096 surfaces. docs/performance.md, "The class
+/// of surfaces", says why.
+std::uint64_t surfaces_of_rays(double rays, std::uint64_t cells);
+
+/// The surfaces of a run: its `surfaces`, or as many as its rays are best shared out to. With more
+/// than one, what is measured is the class: the mean over surfaces of surface seeds S, S + 1 ...,
+/// as many rays on each, and errors that hold both the chance of the surfaces and that of the rays.
+/// A run that refines (`until`) takes further surfaces, S + surfaces and so on, with its further
+/// rays: more rays on the same ones would not bring it nearer to the class.
+std::uint64_t surfaces_of(const RunSettings& run, std::uint64_t cells);
+
+/// Why there is no more than one surface of such settings, a sentence; empty when there are many:
+/// kinds that are made from a surface-seed.
+std::string only_surface(const SurfaceSettings& surface);
 
 /// One experiment: all that decides the numbers of a Measurement.
 struct Experiment {

@@ -21,6 +21,7 @@ constexpr Names<LaunchPattern, 3> kLaunches = {{
     {"stratified", LaunchPattern::Stratified},
     {"random", LaunchPattern::Random},
 }};
+constexpr double kMostSurfaces = 32768;
 constexpr Range kRays = {2, static_cast<double>(kMaxRaysPerLayer)};
 
 /// The relative errors to reach, of the albedo and of the cells.
@@ -47,6 +48,35 @@ Param<RunSettings> until_row() {
         const auto& errors = std::get<std::vector<double>>(v);
         s.until = errors.empty() ? 0 : errors.front();
         s.until_cells = errors.size() < 2 ? 0 : errors.back();
+    };
+    return row;
+}
+
+/// Written where it is not the default, as files of older versions do not have it.
+Param<RunSettings> surfaces_row() {
+    using S = RunSettings;
+    return field(&S::surfaces,
+                 {.name = "surfaces",
+                  .label = "Surfaces",
+                  .metavar = "K",
+                  .range = {1, kMostSurfaces},
+                  .absent = "auto",
+                  .doc = "measure the class, not one surface: the mean over K surfaces of seeds S, "
+                         "S + 1 ..., which share the rays; errors hold the chance of both; auto: "
+                         "as many as the rays are best shared out to",
+                  .written_unless_default = true});
+}
+
+Param<RunSettings> batches_row() {
+    using S = RunSettings;
+    Param<S> row = field(&S::batches, {.name = "batches",
+                                       .range = {2, 4096},
+                                       .doc = "independent batches per layer, from which errors "
+                                              "are estimated"});
+    row.unused = [](const S& s) {
+        return std::string(s.surfaces == 1 ? ""
+                                           : "each of the --surfaces is a batch: their number says "
+                                             "how many there are");
     };
     return row;
 }
@@ -158,6 +188,7 @@ ParamTable<RunSettings> run_params() {
                .metavar = "B",
                .range = {1, 10000},
                .doc = "reflections a ray may make; what still travels then is truncated"}),
+        surfaces_row(),
         field(&S::jitter, {.name = "jitter",
                            .label = "Camera Jitter",
                            .metavar = "J",
@@ -172,10 +203,7 @@ ParamTable<RunSettings> run_params() {
                          .otherwise = "jitter x cells"}),
         until_row(),
         max_rays_row(),
-        field(&S::batches,
-              {.name = "batches",
-               .range = {2, 4096},
-               .doc = "independent batches per layer, from which errors are estimated"}),
+        batches_row(),
         field(&S::launch, kLaunches,
               {.name = "launch", .doc = "launch points: low-discrepancy, stratified or random"}),
         field(&S::seed, {.name = "seed",

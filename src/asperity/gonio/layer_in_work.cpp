@@ -52,6 +52,12 @@ void LayerInWork::add(std::uint64_t batch, const BatchSums& sums) {
     sums_.add(batch, sums);
 }
 
+void LayerInWork::add_halves(std::uint64_t batch, BatchSums& first, const BatchSums& second) {
+    const std::scoped_lock lock(mutex_);
+    if (sums_.energy.empty()) sums_ = LayerSums(sums_.shape, sums_.largest_batch);
+    sums_.add_halves(batch, first, second);
+}
+
 std::uint64_t LayerInWork::refine() {
     const std::uint64_t end = sums_.done.end(), added = more();
     for (std::uint64_t b = end; b < end + added; ++b) to_do_.push_back(b);

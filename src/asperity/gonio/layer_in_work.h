@@ -49,6 +49,8 @@ class LayerInWork {
 
     /// Adds a batch that was traced. From any thread.
     void add(std::uint64_t batch, const BatchSums& sums);
+    /// The same for the halves of one with a surface of its own; `first` holds both afterwards.
+    void add_halves(std::uint64_t batch, BatchSums& first, const BatchSums& second);
     /// All to do is done: lists the next round, if the layer needs one, and says how many batches
     /// that adds.
     std::uint64_t refine();

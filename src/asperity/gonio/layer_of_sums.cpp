@@ -67,7 +67,10 @@ Layer layer_of(const Incidence& light, const LayerSums& sums) {
     spread.largest_batch = sums.largest_batch;
     spread.squares.resize(sums.squares.size());
     spread.stretched.resize(sums.stretched.size());
+    spread.halves.cells.resize(sums.halves.cells.size());
+    spread.halves.albedo = sums.halves.albedo;
     for_places(shape, [&](std::size_t out, std::size_t place) {
+        if (!spread.halves.cells.empty()) spread.halves.cells[out] = sums.halves.cells[place];
         layer.stderr_energy[out] = static_cast<float>(sums.cell(place).error);
         spread.squares[out] = sums.squares[place];
         if (!spread.stretched.empty()) spread.stretched[out] = sums.stretched[place];
@@ -101,8 +104,11 @@ LayerSums sums_of(const Layer& layer, const SumShape& shape) {
     for_energies(
         shape, [&](std::size_t out, std::size_t place) { sums.energy[place] = layer.energy[out]; });
     sums.stretched.resize(spread.stretched.size());
+    sums.halves.cells.resize(spread.halves.cells.size());
+    sums.halves.albedo = spread.halves.albedo;
     for_places(shape, [&](std::size_t out, std::size_t place) {
         sums.squares[place] = spread.squares[out];
+        if (!sums.halves.cells.empty()) sums.halves.cells[place] = spread.halves.cells[out];
         if (!spread.stretched.empty()) sums.stretched[place] = spread.stretched[out];
     });
     sums.bounces = spread.bounces;

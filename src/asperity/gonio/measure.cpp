@@ -13,11 +13,13 @@
 #include <asperity/gonio/measurement_check.h>
 #include <asperity/gonio/measurement_head.h>
 #include <asperity/gonio/memory_need.h>
+#include <asperity/gonio/surface_class.h>
 #include <asperity/tracing/engine.h>
 #include <asperity/tracing/scale.h>
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace asperity {
@@ -71,7 +73,16 @@ class Gonioreflectometer {
             check_scale(surface_, head_.surface.min_height, head_.surface.max_height,
                         layers_.theta_i());
             if (listener_.begun) listener_.begun(head_);
-            engine_ = find_engine(experiment_.run.engine).make(setup_, run_);
+            EngineKind engine = find_engine(experiment_.run.engine);
+            if (plan_.of_class)
+                class_.emplace(
+                    setup_,
+                    SurfaceClass::Settings{experiment_.surface, std::move(engine),
+                                           layers_.theta_i(),
+                                           open_.size() > 1 ? SurfaceClass::bytes_to_keep() : 0},
+                    run_);
+            else
+                engine_ = engine.make(setup_, run_);
             return true;
         } catch (const Error& error) {
             if (error.code() != ErrorCode::Stopped) throw;
@@ -100,15 +111,15 @@ class Gonioreflectometer {
     /// What each thread does until all layers are complete, or the run is stopped.
     void work(LayerSchedule& schedule) {
         const LayerSchedule::Leave leave{schedule};
-        const auto worker = engine_->worker();
-        BatchSums sums(shape_);
+        const auto worker = class_ ? class_->worker() : engine_->worker();
+        BatchSums sums(shape_), second(shape_);
         while (run_.keep_going()) {
             const auto piece = schedule.next();
             if (!piece) return;
             const std::size_t k = open_[piece->layer];
             if (piece->kind == LayerSchedule::Piece::Kind::Prepare) {
                 prepare_layer(schedule, piece->layer, 1);
-            } else if (trace(layers_[k], layers_[k].to_do()[piece->batch], *worker, sums)) {
+            } else if (trace(layers_[k], layers_[k].to_do()[piece->batch], *worker, sums, second)) {
                 report_.grown(k, [&](Layer& grown) { return layers_[k].write(grown, 2); });
                 if (schedule.traced(piece->layer)) extend_or_close(schedule, piece->layer);
                 if (listener_.checkpoint) checkpoint_clock_.when_due([&] { checkpoint(); });
@@ -119,17 +130,26 @@ class Gonioreflectometer {
     /// Works out what all batches of a layer have in common.
     void prepare_layer(LayerSchedule& schedule, std::size_t number, int threads) {
         LayerInWork& layer = layers_[open_[number]];
-        layer.surface =
-            engine_->light(layer.light, experiment_.run.launch, plan_.rays, run_, threads);
+        // Each surface of a class is lit when its turn comes
+        if (!class_)
+            layer.surface =
+                engine_->light(layer.light, experiment_.run.launch, plan_.rays, run_, threads);
         schedule.prepared(number);
     }
 
     /// Traces a batch and adds it to its layer; false if the run was stopped before the end.
-    bool trace(LayerInWork& layer, std::uint64_t b, Worker& worker, BatchSums& sums) {
+    bool trace(LayerInWork& layer, std::uint64_t b, Worker& worker, BatchSums& sums,
+               BatchSums& second) {
         const BatchRequest batch{experiment_.run.launch, plan_.rays_of(b), experiment_.run.seed,
                                  layer.stream, static_cast<std::uint32_t>(b)};
-        if (!layer.surface->trace(batch, worker, sums, run_)) return false;
-        layer.add(b, sums);
+        if (class_) {
+            if (!class_->trace(layer.light, batch, worker, sums, second, run_)) return false;
+            layer.add_halves(b, sums, second);
+            second.clear();
+        } else {
+            if (!layer.surface->trace(batch, worker, sums, run_)) return false;
+            layer.add(b, sums);
+        }
         sums.clear();
         return true;
     }
@@ -183,6 +203,7 @@ class Gonioreflectometer {
     Measurement head_;
     const SumShape shape_;
     std::unique_ptr<Engine> engine_;
+    std::optional<SurfaceClass> class_;  ///< in place of the engine: more surfaces than one
     const BatchPlan plan_;
     LayersInWork layers_;
     std::vector<std::size_t> open_;  ///< layers in which something is to do

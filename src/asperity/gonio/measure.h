@@ -50,6 +50,13 @@ struct MeasureScope {
 /// is below it, and that of every cell among those which, strongest first, carry 90 % of its energy
 /// is below run.until_cells; or until run.max_rays is reached, which `notes` says.
 ///
+/// With run.surfaces other than 1 the layers are means over surfaces_of(run, cells) surfaces, of
+/// which `surface` is the first and experiment.surface makes the others, as surfaces_of() says:
+/// each batch has a surface of its own, so `Layer::batches` says how many there are, and
+/// shares_of_rays() (gonio/noise_shares.h) what of the errors is the rays'. Surfaces are made while
+/// others are traced, a few milliseconds each of 512 x 512 samples. Throws Error(Usage, "surfaces")
+/// for a `surface` that is not what experiment.surface makes.
+///
 /// Stages: "preparing" the tracer, in cells, and "tracing", in rays. When run.stop_requested(),
 /// returns within 100 ms with `stopped` set and the whole batches done so far; pauses when asked
 /// to. However it is divided, by stops or by `scope`, what comes out in the end is the same, to the

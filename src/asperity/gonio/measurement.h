@@ -21,6 +21,7 @@ struct LayerSpread {
     std::vector<std::uint64_t> stretched;    ///< likewise, or empty
     std::vector<LayerSums::Spread> bounces;  ///< like escaped_by_bounce
     std::vector<LayerSums::Spread> albedo;   ///< like stderr_albedo
+    LayerSums::Halves halves;                ///< like squares and albedo; empty for one surface
 };
 
 /// Light that left the surface for one incident direction, sorted by outgoing direction.

@@ -48,7 +48,10 @@ bool sizes_fit(const Measurement& m, const Layer& layer) {
         spread.squares.empty() ||
         (spread.squares.size() == places && spread.bounces.size() == by_bounce &&
          spread.albedo.size() == values &&
-         (spread.stretched.empty() || spread.stretched.size() == places));
+         (spread.stretched.empty() || spread.stretched.size() == places) &&
+         (spread.halves.cells.empty()
+              ? spread.halves.albedo.empty()
+              : spread.halves.cells.size() == places && spread.halves.albedo.size() == values));
     return layer.energy.size() == shape.orders * places && layer.escaped.size() == values &&
            layer.absorbed.size() == channels && layer.truncated.size() == channels &&
            layer.edge.size() == channels && layer.escaped_by_bounce.size() == by_bounce &&

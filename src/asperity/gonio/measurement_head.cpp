@@ -14,6 +14,7 @@ Measurement head_of(const Heightfield& surface, const Experiment& experiment, co
     Measurement m;
     m.experiment = experiment;
     m.experiment.run.jitter = jitter_of(experiment.run, surface.cell_count());
+    m.experiment.run.surfaces = surfaces_of(experiment.run, surface.cell_count());
     m.detector = Detector(experiment.detector);
     m.channel_names = Fresnel(experiment.optics).channel_names();
     m.surface_name = surface.name;
@@ -27,6 +28,12 @@ Measurement head_of(const Heightfield& surface, const Experiment& experiment, co
     m.surface_cells = surface.cell_count();
     m.threads = run.threads();
     m.version = kVersion;
+    if (m.experiment.run.surfaces > 1)
+        m.notes.push_back(fmt::format(
+            "the surface stands for its class: rays are shared by {}, surface-seeds {} and on{}; "
+            "name and figures are those of the first",
+            m.experiment.run.surfaces, experiment.surface.seed,
+            experiment.run.until > 0 ? ", and by more where layers are refined" : ""));
     if (!surface.source.empty()) m.notes.push_back("the surface's file: " + surface.source);
     if (!surface.prepared.empty())
         m.notes.push_back("the surface was made ready: " + surface.prepared);

@@ -177,6 +177,8 @@ void check(const GlossSettings& settings) {
     if (settings.run.until_cells > 0)
         throw Error(ErrorCode::Usage, "a glossmeter has no cells: give one error", "until");
     check_all(run_params(), settings.run);
+    if (settings.run.surfaces != 1)
+        throw Error(ErrorCode::Usage, "a glossmeter looks at one surface", "surfaces");
 }
 
 }  // namespace

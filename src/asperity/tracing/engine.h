@@ -55,6 +55,7 @@ class Engine {
     virtual std::unique_ptr<LitSurface> light(const Incidence& incidence, LaunchPattern pattern,
                                               std::uint64_t rays, const Run& run,
                                               int threads) const = 0;
+    /// Serves this engine, and others of its kind with other surfaces and all else alike.
     virtual std::unique_ptr<Worker> worker() const = 0;
     /// Bytes kept beside the heights themselves.
     virtual std::size_t memory_bytes() const = 0;

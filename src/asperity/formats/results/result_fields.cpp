@@ -117,6 +117,26 @@ void ResultFields::add_spreads() {
     add_wide("escaped_by_bounce_spread", {channels, extent(measurement_.bounces())},
              &LayerSpread::bounces);
     add_wide("escaped_spread", {channels}, &LayerSpread::albedo);
+    add_halves();
+}
+
+void ResultFields::add_halves() {
+    const std::vector<Layer>& layers = measurement_.layers;
+    if (!std::all_of(layers.begin(), layers.end(),
+                     [](const Layer& layer) { return !layer.spread.halves.cells.empty(); }))
+        return;
+    const std::uint64_t channels = extent(measurement_.channels());
+    const std::uint64_t rows = extent(measurement_.detector.rows());
+    const std::uint64_t columns = extent(measurement_.detector.columns());
+    TensorBlock cells = {
+        "energy_halves", TensorType::U64, {layers.size(), channels, rows, columns, 2}, {}};
+    TensorBlock all = {"escaped_halves", TensorType::U64, {layers.size(), channels, 2}, {}};
+    for (const Layer& layer : layers) {
+        cells.parts.push_back(std::as_bytes(std::span(layer.spread.halves.cells)));
+        all.parts.push_back(std::as_bytes(std::span(layer.spread.halves.albedo)));
+    }
+    blocks_.push_back(std::move(cells));
+    blocks_.push_back(std::move(all));
 }
 
 void ResultFields::add_wide(const char* name, std::vector<std::uint64_t> shape,
@@ -132,10 +152,11 @@ void ResultFields::add_wide(const char* name, std::vector<std::uint64_t> shape,
 }
 
 bool in_checksum(std::string_view name) {
-    constexpr std::array<std::string_view, 9> kLeftOut = {
+    constexpr std::array<std::string_view, 11> kLeftOut = {
         "provenance",       "sides",          "elements",
         "largest_batch",    "batches_done",   "energy_squares",
-        "energy_stretched", "escaped_spread", "escaped_by_bounce_spread"};
+        "energy_stretched", "escaped_spread", "escaped_by_bounce_spread",
+        "energy_halves",    "escaped_halves"};
     return std::find(kLeftOut.begin(), kLeftOut.end(), name) == kLeftOut.end();
 }
 

@@ -49,6 +49,8 @@ class ResultFields {
     void add_layers();
     /// What the errors come from, if all layers tell.
     void add_spreads();
+    /// What tells the noise of the rays from that of the surfaces, if there are several.
+    void add_halves();
     void add_wide(const char* name, std::vector<std::uint64_t> shape,
                   std::vector<LayerSums::Spread> LayerSpread::*member);
     void add_checksums();

@@ -148,6 +148,13 @@ class ResultReader {
         read_wide("escaped_by_bounce_spread", {count, channels, extent(result_.bounces()), 3},
                   &LayerSpread::bounces);
         read_wide("escaped_spread", {count, channels, 3}, &LayerSpread::albedo);
+        if (file_.find("energy_halves") == nullptr) return;
+        read_parts(
+            "energy_halves", TensorType::U64, {cells[0], cells[1], cells[2], cells[3], 2},
+            [](Layer & layer) -> auto& { return layer.spread.halves.cells; });
+        read_parts(
+            "escaped_halves", TensorType::U64, {count, channels, 2},
+            [](Layer & layer) -> auto& { return layer.spread.halves.albedo; });
     }
 
     void read_done() {
