@@ -32,6 +32,9 @@ std::string with_error(double value, double error);
 std::string layer_table(const Measurement& measurement,
                         const std::optional<Comparison>& comparison);
 
+/// How many surfaces there were, and where errors come from; empty where there was one.
+std::string surfaces_line(const Measurement& measurement);
+
 /// What stands below the table: rays, seconds, rays/s, notes.
 std::string closing_lines(const Measurement& measurement);
 

@@ -8,7 +8,10 @@
 #include <asperity/core/energy.h>
 #include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/experiment_params.h>
+#include <asperity/gonio/noise_shares.h>
 #include <asperity/surface/surface_figures.h>
+
+#include <span>
 
 namespace asperity::cli {
 
@@ -64,6 +67,13 @@ Json layer_json(const Measurement& m, const Layer& layer) {
     json["reflections"] = layer.reflections;
     json["stuck"] = layer.stuck;
     json["batches"] = layer.batches;
+    if (const auto shares = shares_of_rays(std::span(&layer, 1))) {
+        Json of_rays = Json::array();
+        for (int c = 0; c < channels; ++c) of_rays.push_back(albedo_error_of_rays(layer, c));
+        json["surfaces"] = layer.batches;
+        json["albedo_stderr_rays"] = of_rays;
+        json["share_of_rays"] = {{"albedo", shares->albedo}, {"cells", shares->cells}};
+    }
     json["exact"] = {{"launched", std::to_string(layer.rays * kRayEnergy)},
                      {"escaped", digits(layer.escaped)},
                      {"absorbed", digits(layer.absorbed)},

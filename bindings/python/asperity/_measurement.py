@@ -87,6 +87,12 @@ class Measurement:
         return _frozen(self._handle.stderr)
 
     @functools.cached_property
+    def stderr_rays(self) -> Floats:
+        """The part of `stderr` that the rays make, same shape; the rest, in squares, is between surfaces. All of
+        it where one surface was measured."""
+        return _frozen(self._handle.stderr_rays)
+
+    @functools.cached_property
     def brdf_by_order(self) -> Floats:
         """f [1/sr] by bounces, [layer, order, channel, row, column]; its sum over the orders is `brdf`."""
         return _frozen(self._handle.brdf_by_order)
@@ -105,6 +111,11 @@ class Measurement:
     def albedo_stderr(self) -> Floats:
         """Standard error of `albedo`, [layer, channel]."""
         return _frozen(self._handle.albedo_stderr)
+
+    @functools.cached_property
+    def albedo_stderr_rays(self) -> Floats:
+        """The part of `albedo_stderr` that the rays make, likewise: [layer, channel]."""
+        return _frozen(self._handle.albedo_stderr_rays)
 
     @functools.cached_property
     def albedo_by_bounce(self) -> Floats:
@@ -138,7 +149,7 @@ class Measurement:
 
     @property
     def batches(self) -> npt.NDArray[np.int64]:
-        """Independent batches the errors come from, [layer]."""
+        """Independent batches the errors come from, [layer]; of several surfaces each is one."""
         return self._handle.batches
 
     # The detector

@@ -4,6 +4,7 @@
 #include "core.h"
 
 #include <asperity/core/energy.h>
+#include <asperity/gonio/noise_shares.h>
 #include <nanobind/stl/vector.h>
 
 #include <functional>
@@ -161,6 +162,10 @@ void add_layer_arrays(nb::class_<MeasurementHandle>& m) {
             },
             nb::rv_policy::automatic)
         .def_prop_ro(
+            "albedo_stderr_rays",
+            [](Handle h) { return by_channel(*h.measurement, albedo_error_of_rays); },
+            nb::rv_policy::automatic)
+        .def_prop_ro(
             "absorbed",
             [](Handle h) {
                 return by_channel(*h.measurement,
@@ -212,6 +217,16 @@ void add_layer_arrays(nb::class_<MeasurementHandle>& m) {
                 const Measurement& r = *h.measurement;
                 return by_cell(
                     r, [&](const Layer& l, int c, int cell) { return r.brdf_stderr(l, c, cell); });
+            },
+            nb::rv_policy::automatic)
+        .def_prop_ro(
+            "stderr_rays",
+            [](Handle h) {
+                const Measurement& r = *h.measurement;
+                return by_cell(r, [&](const Layer& l, int c, int cell) {
+                    return energy_error_of_rays(l, size(c * r.detector.cells() + cell)) /
+                           r.detector.projected_solid_angle(cell / r.detector.columns());
+                });
             },
             nb::rv_policy::automatic)
         .def_prop_ro(

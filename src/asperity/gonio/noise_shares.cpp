@@ -28,11 +28,14 @@ struct Parts {
 }  // namespace
 
 double albedo_error_of_rays(const Layer& layer, int channel) {
-    return error_of(layer.spread.halves.albedo[static_cast<std::size_t>(channel)], layer);
+    const auto c = static_cast<std::size_t>(channel);
+    const auto& halves = layer.spread.halves.albedo;
+    return halves.empty() ? layer.stderr_albedo[c] : error_of(halves[c], layer);
 }
 
 double energy_error_of_rays(const Layer& layer, std::size_t k) {
-    return error_of(layer.spread.halves.cells[k], layer);
+    const auto& halves = layer.spread.halves.cells;
+    return halves.empty() ? double{layer.stderr_energy[k]} : error_of(halves[k], layer);
 }
 
 std::optional<NoiseShares> shares_of_rays(std::span<const Layer> layers) {

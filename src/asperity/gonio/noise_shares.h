@@ -21,7 +21,7 @@ struct NoiseShares {
 std::optional<NoiseShares> shares_of_rays(std::span<const Layer> layers);
 
 /// The part of a layer's standard errors that the rays make: of the albedo, and of the energy of a
-/// cell (fractions of the launched energy). Of layers that tell.
+/// cell (fractions of the launched energy). All of them where one surface was measured.
 double albedo_error_of_rays(const Layer& layer, int channel);
 double energy_error_of_rays(const Layer& layer, std::size_t channel_and_cell);
 

@@ -125,6 +125,7 @@ TEST(SurfaceClass, RefinesWithFurtherSurfaces) {
     Experiment e = class_experiment(8);
     e.illumination.theta_deg = {50};
     e.run.rays = 8000;
+    e.optics = test::gold_like();
     const Measurement first = measured_class(e);
     e.run.until = 0.9 * first.layers[0].stderr_albedo[0] / first.albedo(first.layers[0], 0);
     e.run.until_cells = 0.99;
