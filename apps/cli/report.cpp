@@ -138,15 +138,19 @@ std::string surfaces_line(const Measurement& m) {
     const auto shares = shares_of_rays(m.layers);
     if (!shares) return {};
     const auto [fewest, most] =
-        std::minmax_element(m.layers.begin(), m.layers.end(), [](const Layer& a, const Layer& b) {
-            return a.batches < b.batches;
-        });
-    return fmt::format("{} surfaces; of the squared errors the rays make {:.0f} % in albedos and "
-                       "{:.0f} % in cells,\nthe rest is between surfaces\n",
-                       fewest->batches == most->batches
-                           ? fmt::format("{}", most->batches)
-                           : fmt::format("{} to {}", fewest->batches, most->batches),
-                       100 * shares->albedo, 100 * shares->cells);
+        std::minmax_element(m.layers.begin(), m.layers.end(),
+                            [](const Layer& a, const Layer& b) { return a.batches < b.batches; });
+    const bool exact = std::all_of(m.layers.begin(), m.layers.end(), [](const Layer& layer) {
+        return std::all_of(layer.stderr_albedo.begin(), layer.stderr_albedo.end(),
+                           [](double error) { return error == 0; });
+    });
+    return fmt::format(
+        "{} surfaces; of the squared errors the rays make {}{:.0f} % in cells,\n"
+        "the rest is between surfaces\n",
+        fewest->batches == most->batches ? fmt::format("{}", most->batches)
+                                         : fmt::format("{} to {}", fewest->batches, most->batches),
+        exact ? "" : fmt::format("{:.0f} % in albedos and ", 100 * shares->albedo),
+        100 * shares->cells);
 }
 
 std::string kind_name(const SurfaceSettings& settings) {

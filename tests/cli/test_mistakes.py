@@ -62,6 +62,12 @@ MISTAKES = [
     ("simulate --rays 100k", 2, "did you mean 100e3?"),
     ("simulate --size 64x64", 2, "did you mean 64?"),
     ("gloss --surface gaussian --geometry 45", 2, "20, 60 and 85"),
+    # surfaces of a class
+    ("simulate --surface heights.gsf --surfaces 4", 2, "a file holds one surface"),
+    ("simulate --surface vgroove --surfaces 4", 2, "there is no seed to it"),
+    ("simulate --surface gaussian --surfaces 4 --batches 8", 2, "each of the --surfaces is a batch"),
+    ("simulate --surface gaussian --surfaces 9 --rays 10", 2, "at most 5 surfaces"),
+    ("gloss --surface gaussian --surfaces 4", 2, "a glossmeter looks at one surface"),
     # a file of another kind, or of another name
     ("info heights.gsf", 3, "it is a heightfield (gsf), not a result"),
     ("compare metal.asperity heights.gsf", 3, "asperity simulate --surface heights.gsf measures it"),

@@ -102,6 +102,40 @@ class Parts(ProgramTest):
         # A part is no result, and says what it is
         self.assertIn("part 1 of 7", self.passes("info", files[0]))
 
+    def test_a_class_of_surfaces_is_divided_and_refined(self):
+        work = [*WORK[:WORK.index("--jitter")], "--surfaces", "24", "--jitter", "24"]
+        whole = self.json_of(*work)
+        layer = whole["layers"][0]
+        self.assertEqual((whole["experiment"]["surfaces"], layer["surfaces"]), (24, 24))
+        self.assertGreater(layer["share_of_rays"]["cells"], 0)
+        self.assertLess(layer["share_of_rays"]["cells"], 0.5)
+        self.assertLess(layer["albedo_stderr_rays"][0], layer["albedo_stderr"][0])
+        auto = self.json_of(*work[:-4], "--surfaces", "auto", "--jitter", "24")
+        self.assertEqual(auto["checksum"], whole["checksum"])
+        self.assertNotIn("share_of_rays", self.json_of(*work, "--surfaces", "1")["layers"][0])
+
+        files = []
+        for k in range(1, 4):
+            files.append(f"part{k}.asperity")
+            self.passes(*work, "--threads", str(k), "--part", f"{k}/3", "-o", files[-1])
+        self.assertEqual(self.checksum("merge", *files, "-o", "whole.asperity"), whole["checksum"])
+        told = self.json_of("info", "whole.asperity")["layers"][0]
+        self.assertEqual(told["share_of_rays"], layer["share_of_rays"])
+        self.assertIn("24 surfaces; of the squared errors the rays make",
+                      self.passes("info", "whole.asperity"))
+        self.passes(*work, "--surface-seed", "2", "--part", "3/3", "-o", "other.asperity")
+        self.fails(3, "merge", *files[:2], "other.asperity", "-o", "x.asperity",
+                   saying="surface-seed is 2 there and 1 here")
+        self.passes(*work, "--surfaces", "12", "--part", "3/3", "-o", "fewer.asperity")
+        self.fails(3, "merge", *files[:2], "fewer.asperity", "-o", "x.asperity",
+                   saying="surfaces is 12 there and 24 here")
+
+        at_once = self.checksum(*work, "--until", "0.3%,90%")
+        self.passes("refine", "whole.asperity", "--until", "0.3%,90%")
+        refined = self.json_of("info", "whole.asperity")
+        self.assertEqual(refined["checksum"], at_once)
+        self.assertGreater(max(layer["surfaces"] for layer in refined["layers"]), 24)
+
     def test_a_finished_result_is_refined(self):
         at_once = self.checksum(*WORK, "--until", "0.03%,60%")
         self.passes(*WORK, "-o", "r.asperity")

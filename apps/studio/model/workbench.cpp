@@ -67,6 +67,7 @@ bool Workbench::are_layers_current() const {
     if (!head) return false;
     Experiment wanted = settings().experiment;
     wanted.run.jitter = jitter_of(wanted.run, head->surface_cells);
+    wanted.run.surfaces = surfaces_of(wanted.run, head->surface_cells);
     return same_experiment(head->experiment, wanted);
 }
 

@@ -10,11 +10,6 @@
 
 namespace asperity {
 
-namespace {
-/// A batch larger than this is split: a stopped run loses the batches under way.
-constexpr std::uint64_t kLargestBatch = 1 << 20;
-}  // namespace
-
 BatchPlan::BatchPlan(std::uint64_t cells, const RunSettings& run) {
     const double jitter = jitter_of(run, cells), wanted = rays_wanted(run, cells);
     if (wanted > static_cast<double>(kMaxRaysPerLayer))
@@ -35,12 +30,12 @@ BatchPlan::BatchPlan(std::uint64_t cells, const RunSettings& run) {
 
 void BatchPlan::share_out_to(std::uint64_t surfaces) {
     const auto refuse = [&](const char* what, std::uint64_t bound, std::uint64_t best) {
-        throw Error(ErrorCode::Usage,
-                    fmt::format("{} rays a layer leave each of {} surfaces {} than {} rays: ask "
-                                "for {} {} surfaces",
-                                rays, surfaces, what, bound, *what == 'f' ? "at most" : "at least",
-                                best),
-                    "surfaces");
+        throw Error(
+            ErrorCode::Usage,
+            fmt::format("{} rays a layer leave each of {} surfaces {} than {} rays: ask "
+                        "for {} {} surfaces",
+                        rays, surfaces, what, bound, *what == 'f' ? "at most" : "at least", best),
+            "surfaces");
     };
     if (rays < 2 * surfaces) refuse("fewer", 2, std::max<std::uint64_t>(1, rays / 2));
     // Halves of a batch are compared, so they have as many rays each

@@ -9,6 +9,9 @@
 
 namespace asperity {
 
+/// Rays of a batch at most, as BatchSums takes them; and a stopped run loses the batches under way.
+inline constexpr std::uint64_t kLargestBatch = 1 << 20;
+
 /// How the rays of a layer are divided into independent batches. Depends on the settings and on
 /// the number of cells alone, so every part of a run makes the same plan.
 struct BatchPlan {

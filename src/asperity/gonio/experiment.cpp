@@ -2,6 +2,7 @@
 #include <asperity/gonio/experiment.h>
 
 #include <asperity/core/error.h>
+#include <asperity/gonio/batch_plan.h>
 #include <asperity/gonio/experiment_params.h>
 #include <asperity/surface/surface_kinds.h>
 #include <fmt/format.h>
@@ -56,9 +57,9 @@ double rays_wanted(const RunSettings& run, std::uint64_t cells) {
 }
 
 std::uint64_t surfaces_of_rays(double rays, std::uint64_t cells) {
-    constexpr double kCellsPerRayOfClass = 2, kFewest = 16, kMost = 4096;
-    return static_cast<std::uint64_t>(std::llround(std::clamp(
-        rays * kCellsPerRayOfClass / static_cast<double>(cells), kFewest, kMost)));
+    constexpr double kFewest = 16, kMost = 4096;
+    const double each = std::min(static_cast<double>(cells), static_cast<double>(kLargestBatch));
+    return static_cast<std::uint64_t>(std::ceil(std::clamp(rays / each, kFewest, kMost)));
 }
 
 std::uint64_t surfaces_of(const RunSettings& run, std::uint64_t cells) {

@@ -13,7 +13,8 @@
 namespace asperity {
 
 struct RunSettings {
-    /// Realisations of the surface a layer is measured on, see surfaces_of(); 0: surfaces_of_rays().
+    /// Realisations of the surface a layer is measured on, see surfaces_of(); 0:
+    /// surfaces_of_rays().
     std::uint64_t surfaces = 1;
     /// Camera Jitter J: launch points per surface cell and layer; 0: as jitter_of() says. All
     /// surfaces share them.
@@ -45,9 +46,9 @@ double jitter_of(const RunSettings& run, std::uint64_t cells);
 /// Rays of a layer that a run asks for, in a first estimate.
 double rays_wanted(const RunSettings& run, std::uint64_t cells);
 
-/// The number of surfaces that so many rays of a layer are best shared out to: a ray for every
-/// kCellsPerRayOfClass cells of a surface, and 16 to 4096 surfaces. docs/performance.md, "The class
-/// of surfaces", says why.
+/// The number of surfaces that so many rays of a layer are best shared out to: a ray for every cell
+/// of a surface, at most 2^20 on each, and 16 to 4096 surfaces. docs/performance.md, "The class of
+/// surfaces", says why.
 std::uint64_t surfaces_of_rays(double rays, std::uint64_t cells);
 
 /// The surfaces of a run: its `surfaces`, or as many as its rays are best shared out to. With more

@@ -71,7 +71,10 @@ bool SurfaceClass::trace(const Incidence& incidence, const BatchRequest& request
                          BatchSums& first, BatchSums& second, Run& run) {
     const auto on = surface(request.index, run);
     if (!on) return false;
-    const auto lit = on->engine->light(incidence, request.pattern, request.rays, run, 1);
+    // Beside what it costs to make a surface, what all its rays have in common is soon worth a look
+    constexpr std::uint64_t kRayIsWorth = 32;
+    const auto lit =
+        on->engine->light(incidence, request.pattern, kRayIsWorth * request.rays, run, 1);
     if (run.stop_requested()) return false;
     BatchRequest half = request;
     half.rays = request.rays / 2;

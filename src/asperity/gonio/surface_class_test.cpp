@@ -57,14 +57,14 @@ TEST(SurfaceClass, IsTheSumOfItsSurfaces) {
     for (const char* engine : {"wide", "plain"}) {
         Experiment e = class_experiment(3);
         e.run.engine = engine;
-        e.run.rays = 9000;  // more than one a cell: some facets are solved analytically
+        e.run.rays = 120000;  // enough for facets to be solved analytically
         const Measurement whole = measured_class(e);
         std::vector<LayerSums> ours;
         for (const Layer& layer : whole.layers) ours.push_back(sums_of(layer, whole.shape()));
         std::vector<std::uint64_t> energy(ours[0].energy.size());
         std::vector<LayerSums::Wide> halves(ours[0].squares.size());
         for (std::uint64_t b = 0; b < 3; ++b) {
-            // A run of one surface, six batches of 1500 rays: those numbered 2 b and 2 b + 1
+            // A run of one surface, six batches of 20000 rays: those numbered 2 b and 2 b + 1
             Experiment one = e;
             one.run.surfaces = 1;
             one.run.batches = 6;
@@ -90,7 +90,7 @@ TEST(SurfaceClass, IsTheSumOfItsSurfaces) {
         EXPECT_EQ(ours[0].energy, energy) << engine;
         EXPECT_TRUE(ours[0].halves.cells == halves) << engine;
         EXPECT_EQ(whole.layers[0].batches, 3);
-        EXPECT_EQ(whole.layers[0].rays, 9000u);
+        EXPECT_EQ(whole.layers[0].rays, 120000u);
     }
 }
 
@@ -124,11 +124,13 @@ TEST(SurfaceClass, HasTheSameBitsHoweverItIsDivided) {
 TEST(SurfaceClass, RefinesWithFurtherSurfaces) {
     Experiment e = class_experiment(8);
     e.illumination.theta_deg = {50};
+    e.detector.resolution = 4;
     e.run.rays = 8000;
     e.optics = test::gold_like();
     const Measurement first = measured_class(e);
     e.run.until = 0.9 * first.layers[0].stderr_albedo[0] / first.albedo(first.layers[0], 0);
     e.run.until_cells = 0.99;
+    e.run.max_rays = 32000;
     const Measurement refined = measured_class(e);
     EXPECT_GT(refined.layers[0].batches, 8);
     MeasureScope scope;
@@ -137,6 +139,7 @@ TEST(SurfaceClass, RefinesWithFurtherSurfaces) {
     // As many surfaces asked for at once are the same ones
     Experiment more = e;
     more.run.until = 0;
+    more.run.max_rays = 0;
     more.run.surfaces = static_cast<std::uint64_t>(refined.layers[0].batches);
     more.run.rays = refined.layers[0].rays;
     expect_same_bits(measured_class(more), refined);
@@ -192,8 +195,12 @@ TEST(SurfaceClass, SharesTheRaysOutEvenly) {
     EXPECT_EQ(plan.rays_of(3), 100000u);
     EXPECT_EQ(plan.rays, 1000000u);
     EXPECT_EQ(plan.rays_before(25), 2500000u);
+    // As many as make a ray a cell, 16 at least, and no more rays on each than a batch may have
     run.surfaces = 0;
-    EXPECT_EQ(BatchPlan(std::uint64_t{1} << 20, run).batches, surfaces_of_rays(1000001, 1 << 20));
+    EXPECT_EQ(BatchPlan(10000, run).batches, 101u);
+    EXPECT_EQ(BatchPlan(std::uint64_t{1} << 20, run).batches, 16u);
+    run.rays = std::uint64_t{1} << 26;
+    EXPECT_EQ(BatchPlan(std::uint64_t{1} << 24, run).batches, 64u);
     run.surfaces = 1;
     EXPECT_FALSE(BatchPlan(4096, run).of_class);
 }
