@@ -130,8 +130,8 @@ class Parts(ProgramTest):
         self.fails(3, "merge", *files[:2], "fewer.asperity", "-o", "x.asperity",
                    saying="surfaces is 12 there and 24 here")
 
-        at_once = self.checksum(*work, "--until", "0.3%,90%")
-        self.passes("refine", "whole.asperity", "--until", "0.3%,90%")
+        at_once = self.checksum(*work, "--until", "0.1%,90%")
+        self.passes("refine", "whole.asperity", "--until", "0.1%,90%")
         refined = self.json_of("info", "whole.asperity")
         self.assertEqual(refined["checksum"], at_once)
         self.assertGreater(max(layer["surfaces"] for layer in refined["layers"]), 24)

@@ -177,8 +177,7 @@ BatchSums& BatchSums::operator+=(const BatchSums& other) {
                 if (counted_)
                     count_[k] += other.count_[k];
                 else
-                    energy_[k] +=
-                        other.counted_ ? other.count_[k] * kRayEnergy : other.energy_[k];
+                    energy_[k] += other.counted_ ? other.count_[k] * kRayEnergy : other.energy_[k];
         }
     });
     const auto add = [](std::vector<std::uint64_t>& sum, const std::vector<std::uint64_t>& more) {

@@ -75,12 +75,11 @@ class Gonioreflectometer {
             if (listener_.begun) listener_.begun(head_);
             EngineKind engine = find_engine(experiment_.run.engine);
             if (plan_.of_class)
-                class_.emplace(
-                    setup_,
-                    SurfaceClass::Settings{experiment_.surface, std::move(engine),
-                                           layers_.theta_i(),
-                                           open_.size() > 1 ? SurfaceClass::bytes_to_keep() : 0},
-                    run_);
+                class_.emplace(setup_,
+                               SurfaceClass::Settings{
+                                   experiment_.surface, std::move(engine), layers_.theta_i(),
+                                   open_.size() > 1 ? SurfaceClass::bytes_to_keep() : 0},
+                               run_);
             else
                 engine_ = engine.make(setup_, run_);
             return true;

@@ -15,9 +15,9 @@ struct NoiseShares {
     double cells = 0;  ///< of the sum over all cells of the squared errors of their energy
 };
 
-/// Of some layers and all their channels together; nothing where one surface was measured. Estimates
-/// from the differences between the halves of each surface's rays: of n surfaces, that of one
-/// layer's albedo is right to about sqrt(4 / n) of itself, that of the cells to far less.
+/// Of some layers and all their channels together; nothing where one surface was measured.
+/// Estimates from the differences between the halves of each surface's rays: of n surfaces, that of
+/// one layer's albedo is right to about sqrt(4 / n) of itself, that of the cells to far less.
 std::optional<NoiseShares> shares_of_rays(std::span<const Layer> layers);
 
 /// The part of a layer's standard errors that the rays make: of the albedo, and of the energy of a
