@@ -51,6 +51,7 @@
 #include <asperity/gonio/measure.h>
 #include <asperity/gonio/measurement.h>
 #include <asperity/gonio/merge.h>
+#include <asperity/gonio/noise_shares.h>
 #include <asperity/instruments/gloss_geometry.h>
 #include <asperity/instruments/glossmeter.h>
 #include <asperity/measured/albedo_by_angle.h>

@@ -114,6 +114,7 @@ void SimulationFields::add_rays() {
         s.experiment.run.jitter = value;
         s.experiment.run.rays = 0;
     });
+    add_setting("surfaces");
     add_setting("bounces");
     add_setting("layers");
     add_setting("theta");

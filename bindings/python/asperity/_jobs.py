@@ -119,8 +119,9 @@ def _same_experiment(job: Job, m: Measurement) -> bool:
     there = dict(line.split(" = ", 1) for line in m._handle.experiment_text.splitlines() if " = " in line)
     wanted = dict(line.split(" = ", 1) for line in job.text.splitlines() if " = " in line)
     wanted.pop("content", None)
-    if wanted.get("jitter") == "auto":
-        wanted["jitter"] = there.get("jitter", "")
+    for name in ("jitter", "surfaces"):
+        if wanted.get(name) == "auto":
+            wanted[name] = there.get(name, "")
     return there == wanted
 
 

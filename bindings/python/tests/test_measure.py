@@ -83,6 +83,20 @@ def test_arrays_have_their_axes_and_add_up(gold):
         gold.energy(3)
 
 
+def test_a_class_of_surfaces_tells_what_its_rays_add():
+    settings = dict(theta_deg=30, material="Au", resolution=16)
+    rough = asperity.gaussian(size=64, alpha=0.3)
+    m = asperity.measure(rough, surfaces=20, **settings)
+    assert m.batches.tolist() == [20] and m.experiment["surfaces"] == "20"
+    assert (m.albedo_stderr_rays < m.albedo_stderr).all() and m.stderr_rays.shape == m.stderr.shape
+    assert 0 < (m.stderr_rays**2).sum() < 0.5 * (m.stderr**2).sum()
+    assert asperity.measure(rough, surfaces="auto", **settings).batches.tolist() == [16]
+    one = asperity.measure(rough, **settings)
+    np.testing.assert_array_equal(one.stderr_rays, one.stderr)
+    with pytest.raises(asperity.Error, match="surface"):
+        asperity.measure(asperity.from_array(rough.heights), surfaces=4, **settings)
+
+
 def test_a_flat_mirror_sends_light_where_a_mirror_does():
     m = asperity.measure(asperity.flat(size=16), theta_deg=[22, 52], phi_deg=33, resolution=36, rays=1000)
     for k, theta in enumerate((22, 52)):
