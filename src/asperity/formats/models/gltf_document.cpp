@@ -7,25 +7,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
+#include <limits>
 #include <span>
 #include <utility>
 
 namespace asperity::io::detail {
 namespace {
 
-constexpr std::uint64_t kUint8 = 5121, kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
-constexpr std::array kOfVectors = {kFloat};
-constexpr std::array kOfIndices = {kUint8, kUint16, kUint32};
+constexpr std::string_view kQuantization = "KHR_mesh_quantization";
+constexpr std::array kOfVectors = {GltfComponent::Float, GltfComponent::Int8, GltfComponent::Uint8,
+                                   GltfComponent::Int16, GltfComponent::Uint16};
+constexpr std::array kOfIndices = {GltfComponent::Uint8, GltfComponent::Uint16,
+                                   GltfComponent::Uint32};
 constexpr std::uint64_t kMostStride = 255;
 
 /// Extensions that a file may require: they change how it looks, not where its triangles are.
 constexpr std::array<std::string_view, 5> kHarmless = {
     "KHR_materials_", "KHR_texture_", "KHR_lights_", "EXT_texture_", "EXT_lights_"};
 
-std::uint64_t bytes_of(std::uint64_t component, std::string_view type) {
-    const std::uint64_t one = component == kUint8 ? 1 : component == kUint16 ? 2 : 4;
-    return type == "VEC3" ? 3 * one : one;
+bool is_one_of(GltfComponent component, std::span<const GltfComponent> components) {
+    return std::find(components.begin(), components.end(), component) != components.end();
 }
 
 }  // namespace
@@ -60,7 +61,7 @@ void GltfDocument::check_version() const {
         const std::string name = extension.is_string() ? extension.get<std::string>() : "";
         const bool harmless = std::any_of(kHarmless.begin(), kHarmless.end(),
                                           [&](auto start) { return name.starts_with(start); });
-        if (!harmless)
+        if (!harmless && name != kQuantization)
             fail(fmt::format("it needs extension {}, which is not read", in_quotes(name)));
     }
 }
@@ -118,62 +119,96 @@ std::vector<double> GltfDocument::numbers(const Json& object, const char* key,
     return values.get<std::vector<double>>();
 }
 
-GltfDocument::Accessor GltfDocument::vectors(std::uint64_t index) {
-    return accessor(index, "VEC3", kOfVectors);
+bool GltfDocument::uses(std::string_view extension) const {
+    const auto is_named = [&](const Json& name) { return name == extension; };
+    const Json& used = list(json_, "extensionsUsed");
+    const Json& required = list(json_, "extensionsRequired");
+    return std::any_of(used.begin(), used.end(), is_named) ||
+           std::any_of(required.begin(), required.end(), is_named);
 }
 
-GltfDocument::Accessor GltfDocument::indices(std::uint64_t index) {
-    const Accessor a = accessor(index, "SCALAR", kOfIndices);
+GltfAccessor GltfDocument::vectors(std::uint64_t index) {
+    const std::span<const GltfComponent> all = kOfVectors;
+    return accessor(index, "VEC3", uses(kQuantization) ? all : all.first(1));
+}
+
+GltfAccessor GltfDocument::indices(std::uint64_t index) {
+    const GltfAccessor a = accessor(index, "SCALAR", kOfIndices);
     if (a.stride != a.size)
         fail(fmt::format("accessor {} of indices has a stride of {} bytes", index, a.stride));
     return a;
 }
 
-GltfDocument::Accessor GltfDocument::accessor(std::uint64_t index, std::string_view type,
-                                              std::span<const std::uint64_t> components) {
+GltfAccessor GltfDocument::accessor(std::uint64_t index, std::string_view type,
+                                    std::span<const GltfComponent> components) {
     const Json& in = entry("accessors", index);
-    if (find(in, "sparse")) fail("sparse accessors are not read");
-    const std::uint64_t component = whole(in, "componentType", 0);
-    const bool fits =
-        std::find(components.begin(), components.end(), component) != components.end();
+    GltfAccessor a;
+    a.component = GltfComponent{whole(in, "componentType", 0)};
     const Json* const its_type = find(in, "type");
-    if (!fits || !its_type || *its_type != type)
+    if (!is_one_of(a.component, components) || !its_type || *its_type != type)
         fail(fmt::format("accessor {} has the wrong type for its use", index));
-    Accessor a;
+    if (const auto known = accessors_.find(index); known != accessors_.end()) return known->second;
+    const Json* const normalized = find(in, "normalized");
+    a.normalized = normalized && *normalized == true;
     a.count = whole(in, "count", 0);
     if (a.count == 0) fail(fmt::format("accessor {} is empty", index));
-    const auto view_index = optional_whole(in, "bufferView");
-    if (!view_index) fail(fmt::format("accessor {} has no bufferView", index));
-    const Json& view = entry("bufferViews", *view_index);
+    a.size = (type == "VEC3" ? 3 : 1) * bytes_of(a.component);
+    a.stride = a.size;
+    const std::string name = fmt::format("accessor {}", index);
+    const auto view = optional_whole(in, "bufferView");
+    const Json* const sparse = find(in, "sparse");
+    if (!view && !sparse) fail(fmt::format("{} has no bufferView", name));
+    if (view) {
+        a.stride = whole(entry("bufferViews", *view), "byteStride", a.size);
+        if (a.stride < a.size || a.stride > kMostStride)
+            fail(fmt::format("bufferView {} has a stride of {} bytes", *view, a.stride));
+        if (a.count - 1 > (std::numeric_limits<std::uint64_t>::max() - a.size) / a.stride)
+            fail(fmt::format("{} has {} values", name, a.count));
+        a.bytes =
+            stretch(*view, whole(in, "byteOffset", 0), (a.count - 1) * a.stride + a.size, name);
+    }
+    if (sparse) a.sparse = sparse_list(*sparse, a);
+    return accessors_[index] = a;
+}
+
+GltfSparse GltfDocument::sparse_list(const Json& in, const GltfAccessor& of) {
+    GltfSparse list;
+    list.count = whole(in, "count", 0);
+    const Json* const indices = find(in, "indices");
+    const Json* const values = find(in, "values");
+    if (!indices || !values || list.count == 0 || list.count > of.count)
+        fail(fmt::format("a sparse list of {} values for {}", list.count, of.count));
+    list.place_type = GltfComponent{whole(*indices, "componentType", 0)};
+    if (!is_one_of(list.place_type, kOfIndices)) fail("a sparse list whose places have no type");
+    const auto packed = [&](const Json& where, std::uint64_t size) {
+        if (list.count > std::numeric_limits<std::uint64_t>::max() / size)
+            fail(fmt::format("a sparse list of {} values", list.count));
+        return stretch(whole(where, "bufferView", entries("bufferViews")),
+                       whole(where, "byteOffset", 0), list.count * size, "a sparse list");
+    };
+    list.places = packed(*indices, bytes_of(list.place_type));
+    list.values = packed(*values, of.size);
+    for (std::uint64_t k = 0; k < list.count; ++k) {
+        const std::uint32_t place = sparse_place(list, k);
+        if (place >= of.count || (k > 0 && place <= sparse_place(list, k - 1)))
+            fail(fmt::format("place {} of a sparse list is {}, they have to rise up to {}", k,
+                             place, of.count - 1));
+    }
+    return list;
+}
+
+std::string_view GltfDocument::stretch(std::uint64_t view_index, std::uint64_t offset,
+                                       std::uint64_t bytes, std::string_view whose) {
+    const Json& view = entry("bufferViews", view_index);
     const std::string_view there = buffer(whole(view, "buffer", entries("buffers")));
     const std::uint64_t view_offset = whole(view, "byteOffset", 0);
     const std::uint64_t view_length = whole(view, "byteLength", 0);
     if (view_offset > there.size() || view_length > there.size() - view_offset)
-        fail(fmt::format("bufferView {} does not lie in its buffer of {} bytes", *view_index,
+        fail(fmt::format("bufferView {} does not lie in its buffer of {} bytes", view_index,
                          there.size()));
-    a.size = bytes_of(component, type);
-    a.stride = whole(view, "byteStride", a.size);
-    if (a.stride < a.size || a.stride > kMostStride)
-        fail(fmt::format("bufferView {} has a stride of {} bytes", *view_index, a.stride));
-    const std::uint64_t offset = whole(in, "byteOffset", 0);
-    if (offset > view_length || view_length - offset < a.size ||
-        a.count - 1 > (view_length - offset - a.size) / a.stride)
-        fail(fmt::format("accessor {} does not lie in its bufferView of {} bytes", index,
-                         view_length));
-    a.bytes = there.substr(view_offset + offset, (a.count - 1) * a.stride + a.size);
-    return a;
-}
-
-Vec3f GltfDocument::vector_at(const Accessor& a, std::uint64_t i) {
-    Vec3f value;  // little-endian, as the file
-    std::memcpy(&value, a.bytes.data() + i * a.stride, sizeof value);
-    return value;
-}
-
-std::uint32_t GltfDocument::index_at(const Accessor& a, std::uint64_t i) {
-    std::uint32_t value = 0;
-    std::memcpy(&value, a.bytes.data() + i * a.stride, a.size);
-    return value;
+    if (offset > view_length || bytes > view_length - offset)
+        fail(fmt::format("{} does not lie in its bufferView of {} bytes", whose, view_length));
+    return there.substr(view_offset + offset, bytes);
 }
 
 std::string_view GltfDocument::buffer(std::uint64_t index) {

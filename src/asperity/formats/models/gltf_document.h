@@ -2,10 +2,12 @@
 // The JSON of a glTF scene, which may be anything, and the numbers in its buffers.
 #pragma once
 
+#include <asperity/formats/models/gltf_accessor.h>
 #include <asperity/formats/models/gltf_buffers.h>
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -39,19 +41,10 @@ class GltfDocument {
 
     // Reading buffers
 
-    /// A stretch of a buffer that holds `count` equal values, `stride` bytes apart; all of it lies
-    /// in the buffer.
-    struct Accessor {
-        std::string_view bytes;
-        std::uint64_t stride = 0, count = 0, size = 0;  ///< of one value, in bytes
-    };
-    /// Of three floats each.
-    Accessor vectors(std::uint64_t index);
+    /// Of three floats each; of whole numbers where the file says KHR_mesh_quantization.
+    GltfAccessor vectors(std::uint64_t index);
     /// Of whole numbers of 1, 2 or 4 bytes.
-    Accessor indices(std::uint64_t index);
-
-    static Vec3f vector_at(const Accessor& a, std::uint64_t i);
-    static std::uint32_t index_at(const Accessor& a, std::uint64_t i);
+    GltfAccessor indices(std::uint64_t index);
 
     /// In all buffers that were read.
     std::uint64_t bytes_read() const {
@@ -63,8 +56,13 @@ class GltfDocument {
   private:
     void parse(const GltfContainer& container);
     void check_version() const;
-    Accessor accessor(std::uint64_t index, std::string_view type,
-                      std::span<const std::uint64_t> components);
+    bool uses(std::string_view extension) const;
+    GltfAccessor accessor(std::uint64_t index, std::string_view type,
+                          std::span<const GltfComponent> components);
+    GltfSparse sparse_list(const Json& in, const GltfAccessor& of);
+    /// `bytes` of a bufferView from an offset on.
+    std::string_view stretch(std::uint64_t view, std::uint64_t offset, std::uint64_t bytes,
+                             std::string_view whose);
     std::string_view buffer(std::uint64_t index);
 
     const ModelSource& source_;
@@ -72,6 +70,7 @@ class GltfDocument {
     std::optional<std::string> binary_;  ///< of a .glb
     GltfFiles files_;
     std::vector<std::optional<std::string_view>> buffers_;
+    std::map<std::uint64_t, GltfAccessor> accessors_;  ///< that were looked at before
 };
 
 }  // namespace asperity::io::detail

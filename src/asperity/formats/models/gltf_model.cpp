@@ -25,18 +25,18 @@ constexpr std::uint64_t kFreeCorners = 1 << 22, kMostCornersAByte = 4;
 
 class GltfReader {
   public:
-    explicit GltfReader(const ModelSource& source) : source_(source), document_(source) {}
+    explicit GltfReader(ModelSource& source) : source_(source), document_(source) {}
 
     Model read() {
         for (const Json& mesh : document_.list(document_.root(), "meshes")) add_mesh(mesh);
         visited_.assign(document_.entries("nodes"), false);
         for (const std::uint64_t root : scene_roots()) visit(root, {}, 1);
+        if (is_morphed_) source_.remarks.push_back("its morph targets are not applied");
+        if (is_skinned_) source_.remarks.push_back("its skin is not bent: it is shown at rest");
         return std::move(model_);
     }
 
   private:
-    using Accessor = GltfDocument::Accessor;
-
     // Meshes
 
     /// A glTF mesh is several of ours, one a primitive.
@@ -48,6 +48,7 @@ class GltfReader {
     void add_mesh(const Json& in) {
         const Json* const name = GltfDocument::find(in, "name");
         Part part{model_.meshes.size(), 0, 0};
+        look_at_weights(in);
         for (const Json& primitive : document_.list(in, "primitives")) {
             TriangleMesh mesh = read_primitive(primitive);
             if (mesh.triangles.empty()) continue;
@@ -60,6 +61,12 @@ class GltfReader {
         parts_.push_back(part);
     }
 
+    /// Of morph targets, by which a mesh or its node would be changed.
+    void look_at_weights(const Json& in) {
+        for (const Json& weight : document_.list(in, "weights"))
+            is_morphed_ = is_morphed_ || weight != 0;
+    }
+
     /// Without triangles when it has none.
     TriangleMesh read_primitive(const Json& primitive) {
         const std::uint64_t mode = document_.whole(primitive, "mode", kTriangles);
@@ -69,8 +76,8 @@ class GltfReader {
         if (!attributes) document_.fail("a primitive without attributes");
         const auto position = document_.optional_whole(*attributes, "POSITION");
         if (!position) return {};
-        const Accessor positions = document_.vectors(*position);
-        Accessor normals;
+        const GltfAccessor positions = document_.vectors(*position);
+        GltfAccessor normals;
         if (const auto normal = document_.optional_whole(*attributes, "NORMAL")) {
             normals = document_.vectors(*normal);
             if (normals.count != positions.count)
@@ -86,7 +93,7 @@ class GltfReader {
     /// The vertex at each corner.
     std::vector<std::uint32_t> read_corners(const Json& primitive, std::uint64_t vertices) {
         const auto index = document_.optional_whole(primitive, "indices");
-        const Accessor list = index ? document_.indices(*index) : Accessor{};
+        const GltfAccessor list = index ? document_.indices(*index) : GltfAccessor{};
         const std::uint64_t count = index ? list.count : vertices;
         corners_ += count;
         if (corners_ > kFreeCorners + kMostCornersAByte * document_.bytes_read())
@@ -96,7 +103,7 @@ class GltfReader {
             document_.fail("more vertices than 32 bits can count");
         std::vector<std::uint32_t> corners(count);
         for (std::uint64_t i = 0; i < count; ++i) {
-            corners[i] = index ? GltfDocument::index_at(list, i) : static_cast<std::uint32_t>(i);
+            corners[i] = index ? list.index_at(i) : static_cast<std::uint32_t>(i);
             if (corners[i] >= vertices)
                 document_.fail(fmt::format("index {} refers to vertex {}, the primitive has {}", i,
                                            corners[i], vertices));
@@ -107,14 +114,15 @@ class GltfReader {
     /// Moves the vertices that are used into the mesh, in the order of the file: many primitives
     /// may share a large list of them. Returns the corners in the mesh's own numbers.
     static std::vector<std::uint32_t> take_vertices(const std::vector<std::uint32_t>& corners,
-                                                    const Accessor& positions,
-                                                    const Accessor& normals, TriangleMesh& mesh) {
+                                                    const GltfAccessor& positions,
+                                                    const GltfAccessor& normals,
+                                                    TriangleMesh& mesh) {
         std::vector<std::uint32_t> used = corners;
         std::sort(used.begin(), used.end());
         used.erase(std::unique(used.begin(), used.end()), used.end());
         for (const std::uint32_t v : used) {
-            mesh.positions.push_back(GltfDocument::vector_at(positions, v));
-            if (normals.count > 0) mesh.normals.push_back(GltfDocument::vector_at(normals, v));
+            mesh.positions.push_back(positions.vector_at(v));
+            if (normals.count > 0) mesh.normals.push_back(normals.vector_at(v));
         }
         std::vector<std::uint32_t> own;
         own.reserve(corners.size());
@@ -172,6 +180,8 @@ class GltfReader {
         if (depth > source_.limits.nodes_deep)
             document_.fail(fmt::format("nodes more than {} deep", source_.limits.nodes_deep));
         const Transform to_world = combined(parent, transform_of(document_, node));
+        look_at_weights(node);
+        is_skinned_ = is_skinned_ || GltfDocument::find(node, "skin");
         if (const auto mesh = document_.optional_whole(node, "mesh"))
             add_instances(*mesh, to_world);
         for (const std::uint64_t child : document_.wholes(node, "children"))
@@ -195,11 +205,12 @@ class GltfReader {
         if (count > most) document_.fail(fmt::format("more than {} {}", most, what));
     }
 
-    const ModelSource& source_;
+    ModelSource& source_;
     GltfDocument document_;
     Model model_;
     std::vector<Part> parts_;
     std::vector<bool> visited_;
+    bool is_morphed_ = false, is_skinned_ = false;
     std::uint64_t unique_triangles_ = 0, instanced_triangles_ = 0, corners_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <asperity/core/parse_number.h>
 #include <asperity/formats/models/model_reader.h>
 #include <asperity/formats/models/model_test_files.h>
+#include <asperity/formats/models/model_test_reading.h>
 #include <asperity/formats/test_files.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,39 +17,11 @@ namespace asperity::io {
 namespace {
 
 using test::expect_error;
+using test::expect_tetrahedron;
+using test::has_remark;
 using test::put;
+using test::read_bytes;
 using test::TemporaryFolder;
-
-/// The tetrahedron of the test files, whatever the bytes around it: 4 faces, 1/6 of a cube in all.
-void expect_tetrahedron(const ModelFile& file, std::size_t vertices = 4) {
-    const ModelStatistics s = statistics(file.model);
-    EXPECT_EQ(s.unique_triangles, 4u);
-    EXPECT_EQ(s.unique_vertices, vertices);
-    EXPECT_EQ(file.dropped_triangles, 0u);
-    double volume = 0;
-    const Instance& first = file.model.instances.at(0);
-    const TriangleMesh& mesh = file.model.meshes[first.mesh];
-    const Vec3 origin = first.to_world.point({});
-    const auto at = [&](std::uint32_t v) {
-        return first.to_world.point(to_double(mesh.positions[v])) - origin;
-    };
-    for (const auto& t : mesh.triangles) volume += dot(at(t[0]), cross(at(t[1]), at(t[2]))) / 6;
-    EXPECT_NEAR(volume, 1 / 6.0, 1e-6);
-}
-
-ModelFile read_bytes(const std::string& name, const std::string& bytes) {
-    const TemporaryFolder folder;
-    put(folder / name, bytes);
-    ModelReadSettings settings;
-    settings.fit = false;
-    return read_model(folder / name, settings);
-}
-
-bool has_remark(const ModelFile& file, const std::string& part) {
-    return std::any_of(file.remarks.begin(), file.remarks.end(), [&](const std::string& remark) {
-        return remark.find(part) != std::string::npos;
-    });
-}
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
     for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
@@ -132,6 +105,38 @@ TEST(ModelKinds, LineEnds) {
     expect_error(ErrorCode::InvalidInput, "a.obj:3: ", [&] { read_model(folder / "a.obj"); });
 }
 
+// The elements may come in any order, and a scan may have strips in place of faces.
+TEST(ModelKinds, PlyFacesFirst) {
+    const std::string text = test::ply_text_file();
+    const std::size_t vertex = text.find("element vertex"), face = text.find("element face"),
+                      edge = text.find("element edge"), body = text.find("end_header\n") + 11,
+                      faces = text.find("3 0 2 1");
+    const std::string swapped = text.substr(0, vertex) + text.substr(face, edge - face) +
+                                text.substr(vertex, face - vertex) + "end_header\n" +
+                                text.substr(faces, text.rfind("7\n") - faces) +
+                                text.substr(body, faces - body);
+    expect_tetrahedron(read_bytes("a.ply", swapped));
+    const TemporaryFolder folder;
+    put(folder / "a.ply", replaced(swapped, "3 1 2 3", "3 1 2 4"));
+    expect_error(ErrorCode::InvalidInput, "refers to vertex 4, the file has 4",
+                 [&] { read_model(folder / "a.ply"); });
+}
+
+TEST(ModelKinds, PlyStrips) {
+    const auto strips = [](const std::string& indices) {
+        return "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+               "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
+               "end_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n" +
+               indices + "\n";
+    };
+    expect_tetrahedron(read_bytes("a.ply", strips("6 0 2 1 3 0 2")));
+    expect_tetrahedron(read_bytes("a.ply", strips("12 0 2 1 3 -1 0 3 2 -1 0 1 3")));
+    const TemporaryFolder folder;
+    put(folder / "a.ply", strips("3 0 2 -2"));
+    expect_error(ErrorCode::InvalidInput, "refers to vertex -2",
+                 [&] { read_model(folder / "a.ply"); });
+}
+
 TEST(ModelKinds, ObjWithNothingBehindItsSeparators) {
     const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvn 0 0 1\n";
     for (const char* tail : {"/", "//", "/1", "/1/", "/-1/"}) {
@@ -147,102 +152,6 @@ TEST(ModelKinds, StlInCapitals) {
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     expect_tetrahedron(read_bytes("a.stl", text));
     expect_tetrahedron(read_bytes("a.stl", replaced(test::stl_text_file(), "facet", "Facet")));
-}
-
-// Position and normal side by side, in both orders: a stride of 24 bytes.
-TEST(ModelKinds, GltfInterleaved) {
-    for (const bool normal_first : {false, true}) {
-        std::string bytes;
-        for (const auto& face : test::kFaces) {
-            for (const std::uint16_t v : face) {
-                std::string position;
-                for (const float x : test::kCorners[v]) position += test::raw(x);
-                const std::string normal =
-                    test::raw(0.0f) + test::raw(0.0f) + test::raw(static_cast<float>(v) - 1.5f);
-                bytes += normal_first ? normal + position : position + normal;
-            }
-        }
-        const std::string json = fmt::format(
-            R"({{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":288,"uri":"data:;base64,{}"}}],
-"bufferViews":[{{"buffer":0,"byteLength":288,"byteStride":24}}],
-"accessors":[{{"bufferView":0,"byteOffset":{},"componentType":5126,"count":12,"type":"VEC3"}},
-{{"bufferView":0,"byteOffset":{},"componentType":5126,"count":12,"type":"VEC3"}}],
-"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"NORMAL":1}}}}]}}],"nodes":[{{"mesh":0}}]}})",
-            test::base64(bytes), normal_first ? 12 : 0, normal_first ? 0 : 12);
-        const ModelFile read = read_bytes("a.gltf", json);
-        expect_tetrahedron(read, 12);
-        EXPECT_EQ(read.model.meshes[0].normals[0], (Vec3f{0, 0, -1}));
-        EXPECT_EQ(read.model.meshes[0].normals[1], (Vec3f{0, 0, 1}));
-    }
-}
-
-// A quarter turn about y takes x to -z; then moved, then all of it twice as large by the parent.
-TEST(ModelKinds, GltfNodesTurnAndMove) {
-    const std::string json = test::gltf_file();
-    const std::string nodes = R"("nodes":[{"mesh":0,"rotation":[0,0.7071067811865476,0,)"
-                              R"(0.7071067811865476],"translation":[1,2,3],"scale":[3,1,1]},
-{"matrix":[2,0,0,0,0,2,0,0,0,0,2,0,5,6,7,1],"children":[0]}])";
-    const std::size_t begin = json.find("\"nodes\""), end = json.find(",\n\"scenes\"");
-    const ModelFile read =
-        read_bytes("a.gltf", json.substr(0, begin) + nodes + R"(,"scenes":[{"nodes":[1]}]})" +
-                                 (end == std::string::npos ? "" : ""));
-    const Transform& t = read.model.instances.at(0).to_world;
-    const Vec3 x = t.point({1, 0, 0});
-    EXPECT_NEAR(x.x, 5 + 2 * 1, 1e-12);
-    EXPECT_NEAR(x.y, 6 + 2 * 2, 1e-12);
-    EXPECT_NEAR(x.z, 7 + 2 * (3 - 3), 1e-12);
-}
-
-// Strips turn every second triangle: a strip over a square and a fan over it cover the same.
-TEST(ModelKinds, GltfStripsAndFans) {
-    for (const auto& [mode, order] : {std::pair{5, "0123"}, {6, "0132"}}) {
-        std::string bytes;
-        constexpr float kSquare[4][2] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
-        for (const char* c = order; *c != 0; ++c) {
-            for (const float x : kSquare[*c - '0']) bytes += test::raw(x);
-            bytes += test::raw(0.0f);
-        }
-        const std::string json = fmt::format(
-            R"({{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":48,"uri":"data:;base64,{}"}}],
-"bufferViews":[{{"buffer":0,"byteLength":48}}],
-"accessors":[{{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}}],
-"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"mode":{}}}]}}],"nodes":[{{"mesh":0}}]}})",
-            test::base64(bytes), mode);
-        const ModelFile read = read_bytes("a.gltf", json);
-        const TriangleMesh& mesh = read.model.meshes.at(0);
-        ASSERT_EQ(mesh.triangles.size(), 2u);
-        for (const auto& t : mesh.triangles) {
-            const Vec3 a = to_double(mesh.positions[t[0]]), b = to_double(mesh.positions[t[1]]),
-                       c = to_double(mesh.positions[t[2]]);
-            EXPECT_NEAR(cross(b - a, c - a).z, 1, 1e-12) << mode;
-        }
-    }
-}
-
-// Thousands of buffers that name one file of a megabyte: it is read once.
-TEST(ModelKinds, GltfBuffersOfOneFileAreOne) {
-    const TemporaryFolder folder;
-    put(folder / "a.bin", test::gltf_buffer() + std::string(1 << 20, '\0'));
-    std::string buffers, views = R"({"buffer":3999,"byteOffset":48,"byteLength":24})";
-    for (int i = 0; i < 4000; ++i)
-        buffers += fmt::format(R"({}{{"byteLength":72,"uri":"{}a.bin"}})", i > 0 ? "," : "",
-                               i % 2 ? "./" : "");
-    std::string accessors, primitives;
-    for (int i = 0; i < 4000; ++i) {
-        views += fmt::format(R"(,{{"buffer":{},"byteLength":48}})", i);
-        accessors += fmt::format(
-            R"(,{{"bufferView":{},"componentType":5126,"count":4,"type":"VEC3"}})", i + 1);
-        primitives += fmt::format(R"({}{{"attributes":{{"POSITION":{}}},"indices":0}})",
-                                  i > 0 ? "," : "", i + 1);
-    }
-    put(folder / "a.gltf",
-        R"({"asset":{"version":"2.0"},"buffers":[)" + buffers + R"(],"bufferViews":[)" + views +
-            R"(],"accessors":[{"bufferView":0,"componentType":5123,"count":12,"type":"SCALAR"})" +
-            accessors + R"(],"meshes":[{"primitives":[)" + primitives +
-            R"(]}],"nodes":[{"mesh":0}]})");
-    ModelReadSettings settings;
-    settings.limits.file_bytes = 2 << 20;  // all buffers together
-    EXPECT_EQ(statistics(read_model(folder / "a.gltf", settings).model).meshes, 4000u);
 }
 
 std::string moved_obj(double x, double y) {

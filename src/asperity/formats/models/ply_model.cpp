@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stanford PLY, as text or binary: the elements vertex and face are read.
+// Stanford PLY, as text or binary: the elements vertex, face and tristrips are read, in any order.
 #include <asperity/core/parse_number.h>
 #include <asperity/formats/models/far_coordinates.h>
 #include <asperity/formats/models/model_formats.h>
@@ -113,10 +113,13 @@ class PlyReader {
             if (element.name == "vertex")
                 read_vertices(element);
             else if (element.name == "face")
-                read_faces(element);
+                read_lists(element, &PlyReader::read_polygon);
+            else if (element.name == "tristrips")
+                read_lists(element, &PlyReader::read_strips);
             else
                 skip(element);
         }
+        cut_waiting();
         Model model;
         if (mesh_.triangles.empty()) return model;
         Extent extent;
@@ -161,15 +164,18 @@ class PlyReader {
         }
     }
 
-    void read_faces(const PlyElement& element) {
+    using ReadList = void (PlyReader::*)(const PlyProperty&);
+
+    /// The lists of corners of an element, each by the function given.
+    void read_lists(const PlyElement& element, ReadList read_list) {
         int place = element.find("vertex_indices");
         if (place < 0) place = element.find("vertex_index");
         if (place < 0 || !element.properties[static_cast<std::size_t>(place)].is_list)
-            values_.fail("the faces have no list 'vertex_indices'");
+            values_.fail(fmt::format("element '{}' has no list 'vertex_indices'", element.name));
         for (std::uint64_t f = 0; f < element.count; ++f) {
             for (std::size_t i = 0; i < element.properties.size(); ++i) {
                 if (static_cast<int>(i) == place)
-                    read_polygon(element.properties[i]);
+                    (this->*read_list)(element.properties[i]);
                 else
                     read_value(element.properties[i]);
             }
@@ -180,19 +186,71 @@ class PlyReader {
         const std::uint64_t corners = list_length(property);
         if (corners < 3)
             values_.fail(fmt::format("a face of {} corners, at least 3 are needed", corners));
-        if (mesh_.triangles.size() + corners - 2 > source_.limits.triangles)
-            values_.fail(fmt::format("more than {} triangles", source_.limits.triangles));
         polygon_.clear();
-        for (std::uint64_t k = 0; k < corners; ++k) {
+        for (std::uint64_t k = 0; k < corners; ++k)
+            polygon_.push_back(vertex(values_.next(property.type)));
+        add_polygon();
+    }
+
+    /// Strips of triangles one after the other, -1 between them; every second triangle of a strip
+    /// turns the other way.
+    void read_strips(const PlyProperty& property) {
+        std::uint64_t in_strip = 0;
+        std::array<std::uint32_t, 3> last{};
+        for (std::uint64_t n = list_length(property); n > 0; --n) {
             const double index = values_.next(property.type);
-            const auto vertices = static_cast<double>(positions_.size());
-            // Written so that a NaN is refused as well.
-            if (!(index >= 0 && index < vertices) || index != std::floor(index))
-                values_.fail(fmt::format("a face refers to vertex {}, the file has {}", index,
-                                         positions_.size()));
-            polygon_.push_back(static_cast<std::uint32_t>(index));
+            if (index == -1) {
+                in_strip = 0;
+                continue;
+            }
+            last = {last[1], last[2], vertex(index)};
+            if (++in_strip < 3) continue;
+            const auto [a, b, c] = last;
+            if (a == b || b == c || c == a) continue;  // only leads on
+            polygon_ = in_strip % 2 == 1 ? std::vector{a, b, c} : std::vector{b, a, c};
+            add_polygon();
         }
-        if (!cut_polygon(polygon_, positions_, mesh_.triangles)) ++rough_polygons_;
+    }
+
+    std::uint32_t vertex(double index) const {
+        // Written so that a NaN is refused as well.
+        const auto most = static_cast<double>(number_of_vertices());
+        if (!(index >= 0 && index < most) || index != std::floor(index))
+            values_.fail(fmt::format("a face refers to vertex {}, the file has {}", index,
+                                     number_of_vertices()));
+        return static_cast<std::uint32_t>(index);
+    }
+
+    /// By the header: the vertices may come after the faces.
+    std::uint64_t number_of_vertices() const {
+        for (const PlyElement& element : header_.elements) {
+            if (element.name == "vertex")
+                return std::min<std::uint64_t>(element.count,
+                                               std::numeric_limits<std::uint32_t>::max());
+        }
+        return 0;
+    }
+
+    /// Cuts `polygon_` into triangles, at once where its vertices are known.
+    void add_polygon() {
+        triangles_ += polygon_.size() - 2;
+        if (triangles_ > source_.limits.triangles)
+            values_.fail(fmt::format("more than {} triangles", source_.limits.triangles));
+        if (positions_.empty()) {
+            waiting_.push_back(static_cast<std::uint32_t>(polygon_.size()));
+            waiting_.insert(waiting_.end(), polygon_.begin(), polygon_.end());
+        } else if (!cut_polygon(polygon_, positions_, mesh_.triangles)) {
+            ++rough_polygons_;
+        }
+    }
+
+    void cut_waiting() {
+        for (std::size_t at = 0; at < waiting_.size();) {
+            const std::span corners = std::span(waiting_).subspan(at + 1, waiting_[at]);
+            polygon_.assign(corners.begin(), corners.end());
+            at += 1 + corners.size();
+            if (!cut_polygon(polygon_, positions_, mesh_.triangles)) ++rough_polygons_;
+        }
     }
 
     std::uint64_t list_length(const PlyProperty& property) {
@@ -223,6 +281,8 @@ class PlyReader {
     std::vector<Vec3> positions_;
     TriangleMesh mesh_;  ///< its positions come last
     std::vector<std::uint32_t> polygon_;
+    std::vector<std::uint32_t> waiting_;  ///< polygons read before the vertices: corners, indices
+    std::uint64_t triangles_ = 0;
     std::uint64_t rough_polygons_ = 0;
 };
 
