@@ -66,8 +66,11 @@ class EnvironmentLight final : public Light {
     EnvironmentLight(const Image& map, const EnvironmentMapSettings& settings);
 
     std::string name() const override {
-        return fmt::format("environment {}, {} x {}, turned by {} degrees, scale {}",
-                           settings_.name, map_.width, map_.height, settings_.rotation_deg,
+        // A whole sphere is twice as wide as high.
+        const bool stretched = map_.width != 2 * map_.height;
+        return fmt::format("environment {}, {} x {}{}, turned by {} degrees, scale {}",
+                           settings_.name, map_.width, map_.height,
+                           stretched ? " stretched over the sphere" : "", settings_.rotation_deg,
                            settings_.scale);
     }
     std::optional<LightSample> sample(Vec3 point, double u1, double u2) const override;

@@ -3,16 +3,23 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
+#include <ImfStandardAttributes.h>
+#include <asperity/core/parse_number.h>
 #include <asperity/formats/exr/exr_errors.h>
 #include <asperity/formats/exr/exr_outline.h>
 #include <asperity/formats/images/image_formats.h>
 #include <asperity/formats/images/image_reader.h>
+#include <asperity/formats/images/primaries.h>
 #include <asperity/formats/read_file.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace asperity::io::detail {
@@ -27,25 +34,82 @@ constexpr std::size_t kSlice = 1 << 22;  // pixels that are read at a time
     throw Error(ErrorCode::InvalidInput, why, path);
 }
 
-/// The channels to read: R, G and B, or Y in the place of R.
+std::string in_small_letters(std::string text) {
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
+/// "" for "R", "beauty." for "beauty.R".
+std::string layer_of(const std::string& channel) {
+    const std::size_t dot = channel.rfind('.');
+    return dot == std::string::npos ? "" : channel.substr(0, dot + 1);
+}
+
+/// Layers that hold red, green and blue, whatever the letters: the names of the three.
+std::map<std::string, std::vector<std::string>> layers_of_colours(const Imf::ChannelList& list) {
+    std::map<std::string, std::vector<std::string>> layers;
+    for (auto c = list.begin(); c != list.end(); ++c) layers[layer_of(c.name())].resize(3);
+    for (auto& [layer, names] : layers) {
+        for (auto c = list.begin(); c != list.end(); ++c) {
+            const std::string name = c.name();
+            if (layer_of(name) != layer) continue;
+            const std::string colour = in_small_letters(name.substr(layer.size()));
+            constexpr std::array<std::array<std::string_view, 2>, 3> kNames = {
+                {{"r", "red"}, {"g", "green"}, {"b", "blue"}}};
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (colour == kNames[k][0] || colour == kNames[k][1]) names[k] = name;
+            }
+        }
+    }
+    std::erase_if(layers, [](const auto& layer) {
+        return std::any_of(layer.second.begin(), layer.second.end(),
+                           [](const std::string& name) { return name.empty(); });
+    });
+    return layers;
+}
+
+/// The channels to read: red, green and blue of the picture itself or of its only layer, or Y.
 std::vector<std::string> channels_of(const Imf::Header& header, const std::string& path) {
     const Imf::ChannelList& list = header.channels();
+    auto layers = layers_of_colours(list);
     std::vector<std::string> channels;
-    if (list.findChannel("R") && list.findChannel("G") && list.findChannel("B"))
-        channels = {"R", "G", "B"};
-    else if (list.findChannel("Y"))
+    if (const auto own = layers.find(""); own != layers.end()) {
+        channels = own->second;
+    } else if (list.findChannel("Y")) {
+        if (list.findChannel("RY") || list.findChannel("BY"))
+            refuse(path, "its colours are luminance and chroma (Y, RY, BY), save it as RGB");
         channels = {"Y"};
-    else
+    } else if (layers.size() == 1) {
+        channels = layers.begin()->second;
+    } else if (layers.empty()) {
         refuse(path, "no channels R, G and B, nor Y");
+    } else {
+        std::string names;
+        for (const auto& [layer, three] : layers)
+            names += fmt::format("{}{}", names.empty() ? "" : ", ",
+                                 in_quotes(layer.substr(0, layer.size() - 1)));
+        refuse(path, fmt::format("several layers ({}), save the one that is the picture", names));
+    }
     for (const std::string& name : channels) {
         const Imf::Channel& channel = list[name.c_str()];
         if (channel.type == Imf::UINT)
-            refuse(path,
-                   fmt::format("channel {} holds integers, a picture needs half or float", name));
+            refuse(path, fmt::format("channel {} holds integers, a picture needs half or float",
+                                     in_quotes(name)));
         if (channel.xSampling != 1 || channel.ySampling != 1)
-            refuse(path, fmt::format("channel {} is subsampled", name));
+            refuse(path, fmt::format("channel {} is subsampled", in_quotes(name)));
     }
     return channels;
+}
+
+/// Rec. 709 where the file says nothing else.
+Primaries primaries_of(const Imf::Header& header) {
+    if (!Imf::hasChromaticities(header)) return {};
+    const Imf::Chromaticities& c = Imf::chromaticities(header);
+    const auto xy = [](const Imath::V2f& v) {
+        return std::array<double, 2>{static_cast<double>(v.x), static_cast<double>(v.y)};
+    };
+    return {xy(c.red), xy(c.green), xy(c.blue), xy(c.white)};
 }
 
 /// The window that a viewer shows: what is not in the file is black there, and what lies outside of
@@ -109,6 +173,7 @@ Image read_pixels(const std::string& path) {
         if (top == data.min.y) image = empty_picture(shown, data, path);
         show(lines, top, bottom, data, shown, image);
     }
+    if (channels.size() == 3) convert_to_rec709(image, primaries_of(file.header()), path);
     return image;
 }
 

@@ -3,6 +3,7 @@
 #include <asperity/core/parse_number.h>
 #include <asperity/formats/images/image_formats.h>
 #include <asperity/formats/images/image_reader.h>
+#include <asperity/formats/images/primaries.h>
 #include <asperity/formats/read_file.h>
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace asperity::io::detail {
 namespace {
@@ -55,6 +57,7 @@ class HdrReader {
             read_line(line);
             store(line, k, image);
         }
+        convert_to_rec709(image, primaries_, path_);
         return image;
     }
 
@@ -80,6 +83,17 @@ class HdrReader {
         place_ = end + 1;
         return line;
     }
+    /// Between blanks; empty when they are not `count` numbers.
+    static std::vector<double> numbers(std::string_view text, std::size_t count) {
+        std::vector<double> found;
+        for (const std::string_view word : split(text, ' ')) {
+            if (word.empty()) continue;
+            const std::optional<double> number = parse_double(word);
+            if (!number) return {};
+            found.push_back(*number);
+        }
+        return found.size() == count ? found : std::vector<double>{};
+    }
     std::uint8_t byte() {
         if (place_ >= bytes_.size()) fail("the file ends inside the pixels");
         return static_cast<std::uint8_t>(bytes_[place_++]);
@@ -94,6 +108,8 @@ class HdrReader {
     std::string_view bytes_;
     std::size_t place_ = 0;
     double exposure_ = 1;
+    std::array<double, 3> correction_{1, 1, 1};  // of red, green and blue
+    Primaries primaries_;
     Axis lines_, places_;  // from line to line, and along a line
     std::array<double, 256> scale_{};
 };
@@ -113,6 +129,19 @@ void HdrReader::read_header() {
             exposure_ *= factor.value_or(0);
             if (!(exposure_ > kLeastExposure && exposure_ < 1 / kLeastExposure))
                 fail(fmt::format("the exposure {} cannot be undone", in_quotes(value)));
+        }
+        if (key == "COLORCORR") {
+            const std::vector<double> factors = numbers(value, 3);
+            for (std::size_t c = 0; c < 3; ++c) {
+                correction_[c] *= factors.empty() ? 0 : factors[c];
+                if (!(correction_[c] > kLeastExposure && correction_[c] < 1 / kLeastExposure))
+                    fail(fmt::format("the correction {} cannot be undone", in_quotes(value)));
+            }
+        }
+        if (key == "PRIMARIES") {
+            const std::vector<double> p = numbers(value, 8);
+            if (p.empty()) fail(fmt::format("{} are not 8 chromaticities", in_quotes(value)));
+            primaries_ = {{p[0], p[1]}, {p[2], p[3]}, {p[4], p[5]}, {p[6], p[7]}};
         }
     }
 }
@@ -232,7 +261,7 @@ void HdrReader::store(const std::vector<Rgbe>& line, std::size_t number, Image& 
         const double scale = scale_[line[k][3]];
         for (std::size_t c = 0; c < 3; ++c)
             image.rgb[3 * (y * width + x) + c] =
-                static_cast<float>(std::min(line[k][c] * scale, kMost));
+                static_cast<float>(std::min(line[k][c] * (scale / correction_[c]), kMost));
     }
 }
 

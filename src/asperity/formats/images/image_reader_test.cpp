@@ -71,6 +71,31 @@ TEST(HdrReader, UndoesAllExposures) {
     EXPECT_EQ(image.at(0, 0), (Rgb{0.5, 0.25, 1.5 / 128}));
 }
 
+// Every line counts, as with exposures, for each colour.
+TEST(HdrReader, UndoesCorrectionsOfColour) {
+    const Image image = read_hdr(hdr_header("-Y 1 +X 1", "COLORCORR= 2 1 0.5\nCOLORCORR=1 2 1\n") +
+                                 bytes({128, 64, 32, 129}));
+    EXPECT_EQ(image.at(0, 0), (Rgb{0.5, 0.25, 0.5}));
+    expect_hdr_refused(hdr_header("-Y 1 +X 1", "COLORCORR=1 0 1\n") + bytes({1, 2, 3, 129}),
+                       "cannot be undone");
+    expect_hdr_refused(hdr_header("-Y 1 +X 1", "COLORCORR=1 1\n") + bytes({1, 2, 3, 129}),
+                       "cannot be undone");
+}
+
+// Radiance's own: equal parts are its white, and ours stays white.
+TEST(HdrReader, BringsPrimariesToOurs) {
+    const std::string line = "PRIMARIES= 0.64 0.33 0.29 0.6 0.15 0.06 0.3333 0.3333\n";
+    const Image image = read_hdr(hdr_header("-Y 1 +X 1", line) + bytes({128, 128, 128, 129}));
+    EXPECT_NEAR(image.at(0, 0).r, 1, 1e-4);
+    EXPECT_NEAR(image.at(0, 0).g, 1, 1e-4);
+    EXPECT_NEAR(image.at(0, 0).b, 1, 1e-4);
+    for (const char* wrong : {"1 2 3", "0.3 0.3 0.3 0.3 0.3 0.3 0.3 0.3", "a b c d e f g h",
+                              "0.64 0 0.29 0.6 0.15 0.06 0.33 0.33"})
+        expect_hdr_refused(
+            hdr_header("-Y 1 +X 1", fmt::format("PRIMARIES={}\n", wrong)) + bytes({1, 2, 3, 129}),
+            "");
+}
+
 // The picture   1 2 3   as a viewer sees it, written in each of the eight orders.
 //               4 5 6
 TEST(HdrReader, KnowsAllEightOrientations) {
@@ -250,6 +275,31 @@ TEST(ExrReader, LuminanceAloneIsGrey) {
     EXPECT_EQ(image.at(6, 4), (Rgb{y, y, y}));
 }
 
+// Other programs' names: small letters, whole words, the only layer of a file.
+TEST(ExrReader, FindsColoursByOtherNames) {
+    const TemporaryFolder folder;
+    const std::vector<std::vector<Channel>> named = {
+        {{"r"}, {"g"}, {"b"}},
+        {{"red"}, {"green"}, {"blue"}},
+        {{"ViewLayer.Combined.R"},
+         {"ViewLayer.Combined.G"},
+         {"ViewLayer.Combined.B"},
+         {"ViewLayer.Depth.Z"}},
+        {{"R"}, {"G"}, {"B"}, {"specular.R"}, {"specular.G"}, {"specular.B"}}};
+    for (const auto& channels : named) {
+        write_exr(folder / "a.exr", channels);
+        const Image image = read_image(folder / "a.exr");
+        for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(image.rgb[c], value_at(c, 0, 0));
+    }
+    const auto refused = [&](const std::vector<Channel>& channels, const std::string& why) {
+        write_exr(folder / "a.exr", channels);
+        expect_error(ErrorCode::InvalidInput, why, [&] { read_image(folder / "a.exr"); });
+    };
+    refused({{"a.R"}, {"a.G"}, {"a.B"}, {"b.R"}, {"b.G"}, {"b.B"}}, "several layers ('a', 'b')");
+    refused({{"a.R"}, {"b.G"}, {"b.B"}}, "no channels R, G and B");
+    refused({{"Y"}, {"RY"}, {"BY"}}, "luminance and chroma");
+}
+
 // A crop of a panorama stays at its place, and what is missing is black; overscan is cut off.
 TEST(ExrReader, ShowsTheDisplayWindow) {
     const TemporaryFolder folder;
@@ -304,7 +354,7 @@ TEST(ExrReader, SaysWhatIsWrong) {
     write_exr(path, {{"R"}, {"G"}});
     refused("no channels R, G and B, nor Y");
     write_exr(path, {{"R"}, {"G"}, {"B", Imf::UINT}});
-    refused("channel B holds integers");
+    refused("channel 'B' holds integers");
     write_exr(path, {{"Y"}});
     std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
     refused("");
@@ -327,7 +377,7 @@ TEST(ExrReader, RefusesSubsampledChannels) {
         file.setFrameBuffer(frame);
         file.writePixels(4);
     }
-    expect_error(ErrorCode::InvalidInput, "a.exr: channel Y is subsampled",
+    expect_error(ErrorCode::InvalidInput, "a.exr: channel 'Y' is subsampled",
                  [&] { read_image(folder / "a.exr"); });
 }
 
