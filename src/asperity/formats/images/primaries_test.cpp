@@ -20,7 +20,7 @@ TEST(Primaries, PublishedMatrices) {
                                     {-0.27648, 1.37272, -0.09624},
                                     {-0.01538, -0.15298, 1.16835}};
     constexpr double kP3[3][3] = {
-        {1.2249, -0.2247, 0}, {-0.0420, 1.0419, 0}, {-0.0197, -0.0786, 1.0983}};
+        {1.2249, -0.2249, 0}, {-0.0421, 1.0421, 0}, {-0.0197, -0.0786, 1.0983}};
     const auto aces = to_rec709(kAces0, "a"), p3 = to_rec709(kDisplayP3, "a");
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) {
