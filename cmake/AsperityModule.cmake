@@ -87,8 +87,8 @@ function(asperity_module name)
     target_compile_features(asperity_${name} PUBLIC cxx_std_20)
     set_target_properties(asperity_${name} PROPERTIES EXPORT_NAME ${name})
     set_property(GLOBAL APPEND PROPERTY ASPERITY_MODULES ${name})
-    # The library keeps all its warnings where they count
-    if(NOT ASPERITY_WARNINGS_AS_ERRORS)
+    # The library keeps all of GCC's warnings where they count
+    if(NOT ASPERITY_WARNINGS_AS_ERRORS OR NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)
         asperity_precompile(library asperity_${name})
     endif()
     if(ASPERITY_BUILD_TESTS AND M_TESTS)

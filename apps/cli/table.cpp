@@ -97,7 +97,7 @@ std::string Table::text() const {
     std::iota(all.begin(), all.end(), std::size_t{0});
     const std::vector<std::size_t> wide = this->widths(true), widths = this->widths(false);
     if (width_of(all, wide, 2) <= kTableColumns) return block(all, wide, 2);
-    for (const std::size_t gap : {2, 1})
+    for (const std::size_t gap : {2u, 1u})
         if (width_of(all, widths, gap) <= kTableColumns) return block(all, widths, gap);
 
     const Columns keys(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(keys_));

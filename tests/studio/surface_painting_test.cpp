@@ -277,7 +277,7 @@ void SurfacePaintingTest::lazy_is_made_once() {
         if (++tries == 1) throw std::runtime_error("no");
         return 7;
     });
-    QVERIFY_EXCEPTION_THROWN(second.get(), std::runtime_error);
+    QVERIFY_THROWS_EXCEPTION(std::runtime_error, second.get());
     QVERIFY(!second.if_made());
     QCOMPARE(second.get(), 7);
 }

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace asperity::plots {
 namespace {
@@ -220,7 +221,7 @@ TEST(Figures, NoiseWidensTheStripAndThePlotSaysSo) {
     for (Layer& layer : noisy->layers)
         for (int cell = 0; cell < noisy->detector.cells(); ++cell)
             layer.energy[static_cast<std::size_t>(cell)] *=
-                ((cell * 7919 + cell / columns * 104729) % 11) % 3;
+                static_cast<std::uint64_t>((cell * 7919 + cell / columns * 104729) % 11 % 3);
     PlotSettings settings;
     settings.kind = "lobe";
     const auto roughness = [&](double average) {

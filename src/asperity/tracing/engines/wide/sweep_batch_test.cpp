@@ -79,7 +79,7 @@ TEST(Sweep, LightAlongTheGridPassesTwice) {
 TEST(Sweep, LinesHoldAllRaysAndNoneTwice) {
     const Heightfield s = tile(100, 40);
     for (const double phi : {0.0, 50.0, 90.0, 200.0})
-        for (const std::uint64_t rays : {2, 97, 250, 4000, 10007}) {
+        for (const std::uint64_t rays : {2u, 97u, 250u, 4000u, 10007u}) {
             const Incidence light{1, 1.2, radians(phi), false};
             const SweepBatch b(s, light, {LaunchPattern::LowDiscrepancy, rays, 1, 0, 3});
             std::set<std::pair<int, double>> lines;  // cell and place in it

@@ -28,7 +28,7 @@ BatchRequest batch(std::uint64_t rays, std::uint32_t index) {
 TEST(SweepsAround, EveryAzimuthIsEquallyLikely) {
     // One given sweep of many batches: chi-square over 32 sectors
     const Heightfield s = tile(64, 48);
-    for (const std::uint64_t rays : {500, 30000}) {
+    for (const std::uint64_t rays : {500u, 30000u}) {
         std::vector<double> counts(32);
         constexpr std::uint32_t kBatches = 6400;
         for (std::uint32_t k = 0; k < kBatches; ++k) {
@@ -55,7 +55,7 @@ TEST(SweepsAround, AzimuthsOfABatchAreEvenlySpread) {
 
 TEST(SweepsAround, HoldAllRaysAndNoPointTwice) {
     const Heightfield s = tile(64, 48);
-    for (const std::uint64_t rays : {2, 3000, 30001}) {
+    for (const std::uint64_t rays : {2u, 3000u, 30001u}) {
         const SweepsAround b(s, kAround, batch(rays, 5));
         std::uint64_t sum = 0;
         std::vector<double> offsets;
