@@ -4,6 +4,7 @@
 
 #include "model/model_settings.h"
 #include "view/fit_table.h"
+#include "view/model_scene.h"
 #include "view/plot_overlays.h"
 
 #include <QClipboard>
@@ -24,6 +25,7 @@ class FitTest : public QObject {
     void fit_settings_are_kept();
     void fitting_can_be_stopped();
     void errors_have_two_digits();
+    void lobes_stand_beside_each_other();
     void screenshots();
 
   private:
@@ -124,6 +126,17 @@ void FitTest::a_fit_goes_into_the_comparison() {
     const std::string worn = model_spec(settings.model_view.second.settings,
                                         *find_bsdf_model(settings.model_view.second.model));
     QVERIFY(apart(*parse_brdf_spec(worn), *parse_brdf_spec(spec)) < 1e-9);
+    // Both are there to be seen, whether or not a model was loaded before
+    QVERIFY(QTest::qWaitFor([&] { return window().model_scene().has_model(); }, 60000));
+    QVERIFY(QTest::qWaitFor(
+        [&] { return window().model_scene().stage().left_name() == "gold.bsdf"; }, 60000));
+    QVERIFY(window().model_scene().stage().right_name().startsWith("Cook-Torrance"));
+    QVERIFY(window().picture_comes());
+    dialog.hide();
+    shoot(window(), "compare-fit");
+    window().resize(1024, 640);
+    QVERIFY(window().picture_comes());
+    shoot(window(), "compare-fit-small");
     window().workbench().document().undo_stack().undo();
     QVERIFY(window().workbench().settings().scene == SceneKind::Surface);
 }
@@ -168,6 +181,29 @@ void FitTest::errors_have_two_digits() {
     QCOMPARE(with_error(0.5, std::nan("")), QString("0.5 (error not known)"));
 }
 
+void FitTest::lobes_stand_beside_each_other() {
+    window().draw_gold();
+    QVERIFY(window().picture_comes());
+    const QImage alone = window().picture();
+    window().workbench().document().change("Lobes", [](StudioSettings& s) {
+        s.plots.overlays["beckmann"].shown = true;
+        s.surface_view.model_lobes = true;
+    });
+    QVERIFY(window().picture_comes());
+    const QImage several = window().picture();
+    const double changed = difference(alone, several);
+    QVERIFY2(changed > 0.003, qPrintable(QString::number(changed)));
+    // The plots decide which models; a change there is a change here
+    window().workbench().document().change(
+        "Models", [](StudioSettings& s) { s.plots.overlays["beckmann"].shown = false; });
+    QVERIFY(window().picture_comes());
+    QVERIFY(difference(several, window().picture()) > 0.001);
+    window().workbench().document().undo_stack().undo();
+    window().workbench().document().undo_stack().undo();
+    QVERIFY(window().picture_comes());
+    QVERIFY(difference(alone, window().picture()) < 0.001);
+}
+
 void FitTest::screenshots() {
     window().draw_gold();
     FitDialog& dialog = window().fitting();
@@ -178,6 +214,8 @@ void FitTest::screenshots() {
     shoot(dialog, "fit-small");
     window().click("fit-to-plots");
     dialog.hide();
+    window().workbench().document().change(
+        "Test", [](StudioSettings& s) { s.surface_view.model_lobes = true; });
     QTest::qWait(1500);
     QVERIFY(window().picture_comes());
     shoot(window(), "fit-in-plots");

@@ -2,8 +2,10 @@
 // The lobe over the surface reaches as far as f is large, and rays meet it there.
 #include "model/lobe.h"
 
+#include "model/dome.h"
 #include "model/surface_frame.h"
 
+#include <asperity/bsdf/spec.h>
 #include <asperity/core/directions.h>
 
 #include <QTest>
@@ -53,6 +55,7 @@ class LobeTest : public QObject {
     void reaches_as_far_as_f_is_large();
     void nothing_has_no_lobe();
     void unsure_is_grey();
+    void models_are_shells_on_the_same_scale();
 };
 
 void LobeTest::even_light_makes_a_hemisphere() {
@@ -113,6 +116,43 @@ void LobeTest::unsure_is_grey() {
                                static_cast<double>(even.layer.rays));
     QVERIFY(sure > 100);
     QVERIFY(chroma() < 10);
+}
+
+void LobeTest::models_are_shells_on_the_same_scale() {
+    // f of the layer is the same all over, and so is that of a Lambertian surface: albedo / pi
+    const OneLayer even([](Vec3) { return 1; });
+    const double expected = 0.5 / kPi / even.head.brdf(even.layer, 0, 40);
+    QVERIFY(expected > 0.2 && expected < 0.9);
+    const Lobe::Pixel tint = {250, 120, 20};
+    const Lobe own(even.head, even.layer, kLinear);
+    const Lobe shell(*parse_brdf_spec("lambert:albedo=0.5"), even.head, even.layer, kLinear, tint);
+    for (const double theta : {0.2, 0.8, 1.3}) {
+        const Vec3 d = from_spherical(theta, 2.5);
+        QVERIFY(std::abs(own.reach(d) - Lobe::kLobeRadius) < 1e-3);
+        const double share = shell.reach(d) / Lobe::kLobeRadius;
+        QVERIFY2(std::abs(share - expected) < 1e-3, qPrintable(QString::number(share)));
+    }
+    QVERIFY(std::abs(shell.radius() - expected * Lobe::kLobeRadius) < 1e-2);
+    // Brighter than all there is: cut off within the dome
+    const Lobe mirror(*parse_brdf_spec("beckmann:alpha=0.02,f0=1"), even.head, even.layer, kLinear,
+                      tint);
+    QVERIFY(mirror.radius() < kDomeRadius && mirror.radius() >= Lobe::kLobeRadius);
+    // Clear in the middle, less at the rim; the layer's own lobe hides what lies behind
+    const auto opacity = [](const Lobe& lobe, double aside) {
+        const WorldRay ray{{aside, 10, 0}, {0, -1, 0}};
+        Hit hit;
+        lobe.look({&ray, 1}, {&hit, 1});
+        return hit.found() ? lobe.opacity(ray, hit) : -1;
+    };
+    const double middle = opacity(shell, 0.02), rim = opacity(shell, 0.97 * shell.radius());
+    QVERIFY2(middle > 0 && middle < 0.2, qPrintable(QString::number(middle)));
+    QVERIFY2(rim > 2 * middle && rim < 1, qPrintable(QString::number(rim)));
+    QVERIFY(opacity(own, 0.02) > 0.85);
+    const WorldRay ray{{0.02, 10, 0}, {0, -1, 0}};
+    Hit hit;
+    shell.look({&ray, 1}, {&hit, 1});
+    const Lobe::Pixel colour = shell.colour(ray, hit);
+    QVERIFY(colour[0] > colour[1] && colour[1] > colour[2]);  // its tint
 }
 
 }  // namespace asperity::studio

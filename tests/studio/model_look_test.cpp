@@ -108,7 +108,7 @@ void wear_simulated(Bench& bench, const QTemporaryDir& folder, double normalize_
     bench.change([&](ModelView& view) {
         view.brdf.type = BrdfType::Simulated;
         view.brdf.normalize_factor = normalize_factor;
-        view.result = file;
+        view.brdf.result = view.second.result = file;
     });
     QTRY_VERIFY_WITH_TIMEOUT(bench.scene.stage().message().isEmpty(), 30000);
 }

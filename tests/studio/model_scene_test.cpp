@@ -83,7 +83,9 @@ void ModelSceneTest::brdf_type_switches_the_fields() {
     auto* second = bench.find<QDoubleSpinBox>("second-normalize-factor");
     QVERIFY(!second->isVisible());
     bench.find<QCheckBox>("compare")->setChecked(true);
-    QVERIFY(second->isVisible() && result->isVisible());
+    // Each side has a result of its own
+    QVERIFY(second->isVisible() && !result->isVisible());
+    QVERIFY(bench.find<QLineEdit>("second-result-file")->isVisible());
     bench.set("second-normalize-factor", 3);
     QCOMPARE(view_of(bench).second.normalize_factor, 3.0);
     QCOMPARE(view_of(bench).brdf.normalize_factor, 1.0);
@@ -163,7 +165,7 @@ void ModelSceneTest::nothing_drawn_is_said() {
     QCOMPARE(bench.scene.stage().message(), sentence);
     QCOMPARE(bench.complaints.size(), 2);
 
-    bench.change([&](ModelView& view) { view.result = "nowhere.asperity"; });
+    bench.change([&](ModelView& view) { view.brdf.result = "nowhere.asperity"; });
     QTRY_COMPARE(bench.complaints.size(), 3);
     QVERIFY(bench.complaints.last().startsWith("nowhere.asperity: "));
 }
@@ -302,7 +304,7 @@ void ModelSceneTest::it_closes_while_a_brdf_is_made() {
         bench.begin();
         bench.change([this](ModelView& view) {
             view.brdf.type = BrdfType::Simulated;
-            view.result = path("closing.asperity").toStdString();
+            view.brdf.result = path("closing.asperity").toStdString();
         });
         QTest::qWait(20);
         clock.start();

@@ -140,11 +140,12 @@ void put_in_compare(StudioSettings& settings, const std::string& spec, const Brd
     const auto [model, given] = read_spec(spec);
     ModelView& view = settings.model_view;
     view.brdf.type = BrdfType::Simulated;
-    view.result = fitted.kind == BrdfSource::Kind::File ? fitted.text : std::string();
+    view.brdf.result = fitted.kind == BrdfSource::Kind::File ? fitted.text : std::string();
     view.second.type = BrdfType::Model;
     view.second.model = model.name;
     view.second.settings[model.name] = given;
     view.compare = view.brdf_runs = true;
+    if (view.model.empty()) view.model = "ball";
     settings.scene = SceneKind::Model;
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lobe.h"
 
+#include "dome.h"
 #include "surface_frame.h"
+
+#include <asperity/core/directions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,12 +18,16 @@ struct Lobe::Grid {
     Detector detector;
     std::vector<float> reach, doubt;
     double top = 1;
+    io::ColourMap map = io::ColourMap::Viridis;
+    std::optional<Pixel> tint;
     TriangleMesh mesh;
 };
 
 namespace {
 
 constexpr int kMostColumns = 64;
+constexpr double kFarthest = 0.97 * kDomeRadius;
+constexpr double kClear = 0.1;  ///< share of what lies behind a solid that shines through
 
 /// Means over the cells of a finer detector that lie in each cell of a coarser one: equal angles
 /// on each, so `every` of its rows and columns.
@@ -37,19 +44,17 @@ double of_channels(const Measurement& m, int channel, const OfChannel& of) {
     return sum / std::max(1, m.channels());
 }
 
-Means means_of(const Measurement& m, const Layer& layer, int channel, const Detector& coarse) {
-    const Detector& fine = m.detector;
-    const std::vector<double> values = io::values_of(m, layer, channel);
+/// `values` and `error(cell)` are of the fine detector's cells.
+template <class Error>
+Means means_of(const Detector& fine, const std::vector<double>& values, const Error& error_of,
+               const Detector& coarse) {
     const auto cells = static_cast<std::size_t>(coarse.cells());
     Means means{std::vector<double>(cells), std::vector<double>(cells)};
     std::vector<double> weights(cells);
-    const bool known = !layer.stderr_energy.empty();
     for (int cell = 0; cell < fine.cells(); ++cell) {
         const auto at = static_cast<std::size_t>(coarse.cell_of(fine.centre(cell)));
         const double weight = fine.projected_solid_angle(cell / fine.columns());
-        const double error =
-            known ? of_channels(m, channel, [&](int c) { return m.brdf_stderr(layer, c, cell); })
-                  : 0;
+        const double error = error_of(cell);
         means.value[at] += weight * values[static_cast<std::size_t>(cell)];
         means.error[at] += weight * weight * error * error;
         weights[at] += weight;
@@ -60,6 +65,31 @@ Means means_of(const Measurement& m, const Layer& layer, int channel, const Dete
         means.error[k] = std::sqrt(means.error[k]) / weights[k];
     }
     return means;
+}
+
+Means means_of(const Measurement& m, const Layer& layer, int channel, const Detector& coarse) {
+    const bool known = !layer.stderr_energy.empty();
+    const auto error_of = [&](int cell) {
+        return known ? of_channels(m, channel, [&](int c) { return m.brdf_stderr(layer, c, cell); })
+                     : 0.0;
+    };
+    return means_of(m.detector, io::values_of(m, layer, channel), error_of, coarse);
+}
+
+/// f of a model in the light of a layer, in the middle of each cell.
+std::vector<double> values_of(const Bsdf& model, const Measurement& m, const Layer& layer,
+                              int channel) {
+    const Vec3 wi = from_spherical(layer.theta_i, layer.phi_i);
+    std::vector<double> f(static_cast<std::size_t>(model.channels())), values;
+    const bool has_channel = channel >= 0 && model.channels() == m.channels();
+    for (int cell = 0; cell < m.detector.cells(); ++cell) {
+        model.eval(wi, m.detector.centre(cell), f);
+        double sum = 0;
+        for (const double part : f) sum += part;
+        values.push_back(has_channel ? f[static_cast<std::size_t>(channel)]
+                                     : sum / model.channels());
+    }
+    return values;
 }
 
 /// As fine as the measurement's, but for kMostColumns.
@@ -135,33 +165,69 @@ Lobe::Pixel pixel_of(const io::Colour& c, double light, double gloss) {
 
 }  // namespace
 
-Lobe::Lobe(const Measurement& measurement, const Layer& layer, const io::SkyMapSettings& settings)
-    : Lobe(
-          [&] {
-              Grid grid;
-              grid.detector = coarse_detector(measurement.detector);
-              const io::ValueScale scale = io::value_scale(measurement, {&layer}, settings);
-              const Means means = means_of(measurement, layer, settings.channel, grid.detector);
-              const double most = *std::max_element(means.value.begin(), means.value.end());
-              grid.top = most > 0 ? std::max(0.05, scale.position(most)) : 1;
-              for (std::size_t k = 0; k < means.value.size(); ++k) {
-                  const double value = means.value[k];
-                  const double t = value > 0 ? scale.position(value) : 0;
-                  grid.reach.push_back(static_cast<float>(kLobeRadius * t / grid.top));
-                  grid.doubt.push_back(static_cast<float>(
-                      value > 0 ? std::clamp(means.error[k] / value, 0.0, 1.0) : 0));
-              }
-              grid.mesh = net_of(grid.detector, grid.reach);
-              return grid;
-          }(),
-          settings.colour_map) {}
+struct Lobe::Maker {
+    /// Where on the colour bar the layer's own lobe reaches kLobeRadius.
+    static double top_of(const Means& means, const io::ValueScale& scale) {
+        const double most = *std::max_element(means.value.begin(), means.value.end());
+        return most > 0 ? std::max(0.05, scale.position(most)) : 1;
+    }
 
-Lobe::Lobe(const Grid& grid, io::ColourMap map)
+    static void fill(Grid& grid, const Means& means, const io::ValueScale& scale) {
+        for (std::size_t k = 0; k < means.value.size(); ++k) {
+            const double value = means.value[k];
+            const double t = value > 0 ? scale.position(value) : 0;
+            grid.reach.push_back(
+                static_cast<float>(std::min(kFarthest, kLobeRadius * t / grid.top)));
+            grid.doubt.push_back(
+                static_cast<float>(value > 0 ? std::clamp(means.error[k] / value, 0.0, 1.0) : 0));
+        }
+        grid.mesh = net_of(grid.detector, grid.reach);
+    }
+
+    static Grid of_layer(const Measurement& m, const Layer& layer,
+                         const io::SkyMapSettings& settings) {
+        Grid grid;
+        grid.detector = coarse_detector(m.detector);
+        grid.map = settings.colour_map;
+        const io::ValueScale scale = io::value_scale(m, {&layer}, settings);
+        const Means means = means_of(m, layer, settings.channel, grid.detector);
+        grid.top = top_of(means, scale);
+        fill(grid, means, scale);
+        return grid;
+    }
+
+    static Grid of_model(const Bsdf& model, const Measurement& m, const Layer& layer,
+                         const io::SkyMapSettings& settings, Pixel tint) {
+        Grid grid;
+        grid.detector = coarse_detector(m.detector);
+        grid.map = settings.colour_map;
+        grid.tint = tint;
+        const io::ValueScale scale = io::value_scale(m, {&layer}, settings);
+        grid.top = top_of(means_of(m, layer, settings.channel, grid.detector), scale);
+        fill(grid,
+             means_of(
+                 m.detector, values_of(model, m, layer, settings.channel), [](int) { return 0.0; },
+                 grid.detector),
+             scale);
+        return grid;
+    }
+};
+
+Lobe::Lobe(const Measurement& measurement, const Layer& layer, const io::SkyMapSettings& settings)
+    : Lobe(Maker::of_layer(measurement, layer, settings)) {}
+
+Lobe::Lobe(const Bsdf& model, const Measurement& measurement, const Layer& layer,
+           const io::SkyMapSettings& settings, Pixel tint)
+    : Lobe(Maker::of_model(model, measurement, layer, settings, tint)) {}
+
+Lobe::Lobe(const Grid& grid)
     : detector_(grid.detector),
       reach_(grid.reach),
       doubt_(grid.doubt),
       top_(grid.top),
-      map_(map),
+      radius_(static_cast<double>(*std::max_element(grid.reach.begin(), grid.reach.end()))),
+      map_(grid.map),
+      tint_(grid.tint),
       traced_(traced(grid.mesh)) {}
 
 void Lobe::look(std::span<const WorldRay> rays, std::span<Hit> hits) const {
@@ -182,15 +248,30 @@ double Lobe::reach(Vec3 direction) const {
     return static_cast<double>(reach_[static_cast<std::size_t>(detector_.cell_of(direction))]);
 }
 
+double Lobe::opacity(const WorldRay& ray, const Hit& hit) const {
+    if (!tint_) return 1 - kClear;
+    // As glass: clear where one looks straight through, less at the rim
+    constexpr double kLeast = 0.12, kMost = 0.9;
+    const double facing =
+        std::abs(dot(traced_->surface(ray, hit).shading_normal, normalize(ray.direction)));
+    const double rim = 1 - std::min(facing, 1.0);
+    return kLeast + (kMost - kLeast) * rim * rim;
+}
+
 Lobe::Pixel Lobe::colour(const WorldRay& ray, const Hit& hit) const {
     const SurfacePoint point = traced_->surface(ray, hit);
-    const double share = length(point.position) / kLobeRadius;
-    io::Colour c = io::colour_of(map_, top_ * share);
-    // What is not known well has less colour
-    const auto cell = static_cast<std::size_t>(detector_.cell_of(direction(ray, hit)));
-    const double doubt = static_cast<double>(doubt_[cell]);
-    const double grey = 0.3 * c.r + 0.59 * c.g + 0.11 * c.b;
-    for (double* part : {&c.r, &c.g, &c.b}) *part += doubt * (grey - *part);
+    io::Colour c{};
+    if (tint_) {
+        const auto part = [this](std::size_t k) { return static_cast<double>((*tint_)[k]) / 255; };
+        c = {part(0), part(1), part(2)};
+    } else {
+        c = io::colour_of(map_, top_ * length(point.position) / kLobeRadius);
+        // What is not known well has less colour
+        const auto cell = static_cast<std::size_t>(detector_.cell_of(direction(ray, hit)));
+        const double doubt = static_cast<double>(doubt_[cell]);
+        const double grey = 0.3 * c.r + 0.59 * c.g + 0.11 * c.b;
+        for (double* part : {&c.r, &c.g, &c.b}) *part += doubt * (grey - *part);
+    }
 
     // A light over the eye's left shoulder, and a sky
     const Vec3 n = point.shading_normal;

@@ -21,17 +21,16 @@ constexpr int kTellEveryMs = 100;
 constexpr qint64 kMovementMs = 250;
 
 auto fields(const BrdfSettings& s) {
-    return std::tie(s.type, s.model, s.settings, s.normalize_factor, s.diffuse);
+    return std::tie(s.type, s.model, s.settings, s.result, s.normalize_factor, s.diffuse);
 }
 
 /// All that decides the picture but the camera.
 auto fields(const ModelView& v) {
-    return std::tuple_cat(
-        fields(v.brdf), fields(v.second),
-        std::tie(v.model, v.floor, v.brdf_runs, v.compare, v.split, v.result, v.light,
-                 v.light_position, v.light_intensity, v.sun_elevation_deg, v.sun_azimuth_deg,
-                 v.environment, v.environment_rotation_deg, v.depth, v.tone.exposure, v.tone.curve,
-                 v.tone.transfer));
+    return std::tuple_cat(fields(v.brdf), fields(v.second),
+                          std::tie(v.model, v.floor, v.brdf_runs, v.compare, v.split, v.light,
+                                   v.light_position, v.light_intensity, v.sun_elevation_deg,
+                                   v.sun_azimuth_deg, v.environment, v.environment_rotation_deg,
+                                   v.depth, v.tone.exposure, v.tone.curve, v.tone.transfer));
 }
 
 Material black() {

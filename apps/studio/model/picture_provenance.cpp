@@ -15,14 +15,14 @@ std::string text(Rgb c) {
     return fmt::format("{}/{}/{}", c.r, c.g, c.b);
 }
 
-std::string brdf_text(const BrdfSettings& worn, const ModelView& view, const WornBrdfs& brdfs) {
-    if (worn.type == BrdfType::Simulated && !view.result.empty()) return view.result;
+std::string brdf_text(const BrdfSettings& worn, const WornBrdfs& brdfs) {
+    if (worn.type == BrdfType::Simulated && !worn.result.empty()) return worn.result;
     const auto material = brdfs.material(worn);
     return material ? material->brdf().name() : "none";
 }
 
 void tell_brdfs(const ModelView& view, const WornBrdfs& brdfs, io::Provenance& told) {
-    told.emplace_back("brdf", brdf_text(view.brdf, view, brdfs));
+    told.emplace_back("brdf", brdf_text(view.brdf, brdfs));
     const auto simulated = [](const BrdfSettings& s) { return s.type == BrdfType::Simulated; };
     const auto factor = [&](const BrdfSettings& s) {
         return simulated(s) ? s.normalize_factor : 1;
@@ -30,7 +30,7 @@ void tell_brdfs(const ModelView& view, const WornBrdfs& brdfs, io::Provenance& t
     const auto albedo = [&](const BrdfSettings& s) { return simulated(s) ? s.diffuse : Rgb{}; };
     std::string factors = fmt::format("{}", factor(view.brdf)), albedos = text(albedo(view.brdf));
     if (view.compare) {
-        told.emplace_back("brdf", brdf_text(view.second, view, brdfs));
+        told.emplace_back("brdf", brdf_text(view.second, brdfs));
         told.emplace_back("split", fmt::format("{}", view.split));
         factors += fmt::format(",{}", factor(view.second));
         albedos += "," + text(albedo(view.second));

@@ -47,6 +47,9 @@ StudioSettings session_from_text(std::string_view text, const std::string& name)
             throw Error(ErrorCode::InvalidInput, error.what(), place);
         }
     }
+    // Sessions were written when both sides of a comparison had one result
+    if (seen.contains({kSection, "result"}) && !seen.contains({kSection, "second-result"}))
+        settings.model_view.second.result = settings.model_view.brdf.result;
     return settings;
 }
 

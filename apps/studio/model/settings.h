@@ -44,10 +44,11 @@ struct SurfaceView {
     KeptCamera camera;
     int current_layer = 15;  ///< Current Layer: whose dome, beam and paths are shown
     SurfaceShading shading = SurfaceShading::Normals;
-    bool whole_dome = false;  ///< cameras begin outside the dome, all of it in view, not within
-    bool lobe = false;        ///< the layer as a solid over the surface
-    bool dome = true;         ///< the sky-map of the current layer, around the surface
-    bool beam = true;         ///< the incident beam as a wireframe (figures 2.10-2.12)
+    bool whole_dome = false;   ///< cameras begin outside the dome, all of it in view, not within
+    bool lobe = false;         ///< the layer as a solid over the surface
+    bool model_lobes = false;  ///< and around it the models that the plots show, as shells
+    bool dome = true;          ///< the sky-map of the current layer, around the surface
+    bool beam = true;          ///< the incident beam as a wireframe (figures 2.10-2.12)
     bool paths = false;  ///< sample paths of light; those into a selected cell are shown anyway
     int path_count = 200;
     io::SkyMapSettings sky_map{io::ColourMap::ThesisRed, io::Scale::Linear};  ///< of the dome
@@ -65,8 +66,11 @@ struct BrdfSettings {
     BrdfType type = BrdfType::Model;
     std::string model = "cook-torrance";  ///< Model: a name in bsdf_models()
     ModelSettings settings = {{"cook-torrance", {{"roughness", "0.4"}}}};  ///< of all models
-    double normalize_factor = 1;                                           ///< Simulated, >= 0
-    Rgb diffuse{0, 0, 0};  ///< Simulated: its Albedo, each 0 .. 1
+    /// Simulated: the file it is made from, a result or a BRDF in a format of formats/bsdfs; empty:
+    /// the layers drawn in the other scene.
+    std::string result = {};
+    double normalize_factor = 1;  ///< Simulated, >= 0
+    Rgb diffuse{0, 0, 0};         ///< Simulated: its Albedo, each 0 .. 1
 };
 
 enum class LightKind { Point, Sky, Environment, Soft };
@@ -82,9 +86,6 @@ struct ModelView {
     bool compare = false;  ///< split view: `brdf` left of the line, `second` right of it
     BrdfSettings second{BrdfType::Simulated};
     double split = 0.5;  ///< share of the width, 0 .. 1
-    /// Where the simulated BRDF comes from: a result file, or empty for the layers drawn in the
-    /// other scene.
-    std::string result;
     LightKind light = LightKind::Point;
     Vec3 light_position{1, 1, 1};
     double light_intensity = 40;  ///< the thesis' 300 blinds a model of radius 1

@@ -163,6 +163,7 @@ void add_surface_scene(ParamTable<S>& keys) {
     group.choice("shading", of(&SurfaceView::shading), kShadings);
     group.value("whole-dome", of(&SurfaceView::whole_dome));
     group.value("lobe", of(&SurfaceView::lobe));
+    group.value("model-lobes", of(&SurfaceView::model_lobes));
     group.value("dome", of(&SurfaceView::dome));
     group.value("beam", of(&SurfaceView::beam));
     group.value("paths", of(&SurfaceView::paths));
@@ -182,7 +183,7 @@ void add_model_scene(ParamTable<S>& keys) {
     group.camera("model-eye", of(&ModelView::camera));
     group.value("model", of(&ModelView::model));
     group.value("floor", of(&ModelView::floor));
-    group.value("result", of(&ModelView::result));
+    group.value("result", of(&ModelView::brdf, &BrdfSettings::result));
     group.choice("light", of(&ModelView::light), kLights);
     group.point("light-position", of(&ModelView::light_position));
     group.value("light-intensity", of(&ModelView::light_intensity), kNotNegative);
@@ -241,6 +242,8 @@ ParamTable<S> make_table() {
     add_model_scene(keys);
     add_brdf(keys, "BRDF", "brdf-", &ModelView::brdf);
     add_brdf(keys, "The second BRDF of a comparison", "second-", &ModelView::second);
+    Group(keys, "The second BRDF of a comparison")
+        .value("second-result", at(&S::model_view, &ModelView::second, &BrdfSettings::result));
     add_plots(keys);
     add_fit(keys);
     return keys;

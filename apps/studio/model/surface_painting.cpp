@@ -14,7 +14,6 @@ using Pixel = SurfaceBody::Pixel;
 
 constexpr Pixel kSelected = {255, 245, 190};
 constexpr float kSelectedShare = 0.85F;
-constexpr float kLobeClear = 0.1F;  // share of what lies behind the lobe that shines through
 
 /// The dark round the scene where no layer is shown, and below the horizon: black but for a breath
 /// of blue at the horizon. `direction` in the world, unit length.
@@ -41,7 +40,12 @@ class SurfacePainting : public Painting {
     bool pass(Run& run) override {
         body_ = picture_.body ? &picture_.body->get() : nullptr;
         dome_ = picture_.dome ? &picture_.dome->get() : nullptr;
-        lobe_ = picture_.lobe ? &picture_.lobe->get() : nullptr;
+        lobes_.clear();
+        radius_ = 0;
+        for (const auto& lobe : picture_.lobes) {
+            lobes_.push_back(&lobe->get());
+            radius_ = std::max(radius_, lobes_.back()->radius());
+        }
         const auto [x, y] = place_of_sample(passes_);
         // Rows are written by several threads: the picture must be ours alone by now.
         bits_ = image_.bits();
@@ -59,41 +63,58 @@ class SurfacePainting : public Painting {
                 SurfaceFrame::direction_to_world(ray.direction)};
     }
 
-    /// What the pixels of a row see of the lobe.
+    /// What the pixels of a row see of the lobes.
     struct LobeRow {
-        const Lobe* lobe = nullptr;
-        std::vector<WorldRay> rays;          ///< those that may meet it
-        std::vector<Hit> hits;               ///< of these
+        const std::vector<const Lobe*>* lobes = nullptr;
+        std::vector<WorldRay> rays;          ///< those that may meet one
+        std::vector<std::vector<Hit>> hits;  ///< of these, for each lobe
         std::vector<std::int32_t> of_pixel;  ///< which of them; -1: none
 
-        /// `behind` lies at that distance from the eye; the solid lets a little of it through.
+        /// `behind` lies at that distance from the eye; lobes let some of it through.
         Pixel over(std::size_t pixel, double distance, const Pixel& behind) const {
             if (of_pixel.empty() || of_pixel[pixel] < 0) return behind;
             const auto at = static_cast<std::size_t>(of_pixel[pixel]);
-            if (!hits[at].found() || static_cast<double>(hits[at].distance) > distance)
-                return behind;
-            Pixel colour = lobe->colour(rays[at], hits[at]);
-            for (std::size_t c = 0; c < 3; ++c) colour[c] += kLobeClear * (behind[c] - colour[c]);
-            return colour;
+            // From the farthest to the nearest; there are a handful
+            Pixel colour = behind;
+            double nearer_than = distance;
+            while (true) {
+                std::size_t next = hits.size();
+                for (std::size_t k = 0; k < hits.size(); ++k) {
+                    const Hit& hit = hits[k][at];
+                    const auto far = static_cast<double>(hit.distance);
+                    if (!hit.found() || !(far < nearer_than)) continue;
+                    if (next == hits.size() || far > static_cast<double>(hits[next][at].distance))
+                        next = k;
+                }
+                if (next == hits.size()) return colour;
+                const Hit& hit = hits[next][at];
+                const Lobe& lobe = *(*lobes)[next];
+                const auto share = static_cast<float>(lobe.opacity(rays[at], hit));
+                const Pixel own = lobe.colour(rays[at], hit);
+                for (std::size_t c = 0; c < 3; ++c) colour[c] += share * (own[c] - colour[c]);
+                nearer_than = static_cast<double>(hit.distance);
+            }
         }
     };
 
     template <class RayOf>
-    LobeRow look_at_lobe(std::size_t width, const RayOf& ray_of) const {
+    LobeRow look_at_lobes(std::size_t width, const RayOf& ray_of) const {
         LobeRow row;
-        if (lobe_ == nullptr) return row;
-        row.lobe = lobe_;
+        if (lobes_.empty()) return row;
+        row.lobes = &lobes_;
         row.of_pixel.assign(width, -1);
         for (std::size_t k = 0; k < width; ++k) {
             const WorldRay ray = ray_of(k);
             const double middle = -dot(ray.origin, ray.direction);
             const double passes = dot(ray.origin, ray.origin) - middle * middle;
-            if (passes > Lobe::kLobeRadius * Lobe::kLobeRadius) continue;
+            if (passes > radius_ * radius_) continue;
             row.of_pixel[k] = static_cast<std::int32_t>(row.rays.size());
             row.rays.push_back(ray);
         }
-        row.hits.resize(row.rays.size());
-        if (!row.rays.empty()) lobe_->look(row.rays, row.hits);
+        for (const Lobe* lobe : lobes_) {
+            row.hits.emplace_back(row.rays.size());
+            if (!row.rays.empty()) lobe->look(row.rays, row.hits.back());
+        }
         return row;
     }
 
@@ -102,7 +123,7 @@ class SurfacePainting : public Painting {
         return look_at_heightfield(
             body_->view(), frame.to_surface(camera_), image_.width(), image_.height(), x, y, run,
             [&](int row, std::span<const WorldRay> rays, std::span<const PatchHit> hits) {
-                const LobeRow lobe = look_at_lobe(
+                const LobeRow lobe = look_at_lobes(
                     rays.size(), [&](std::size_t k) { return to_world(frame, rays[k]); });
                 add_row(row, [&](std::size_t k) {
                     const bool on_surface = hits[k].part != PatchPart::None;
@@ -121,7 +142,7 @@ class SurfacePainting : public Painting {
             const auto ray = [&](std::size_t column) {
                 return rays.at(static_cast<double>(column) + x, static_cast<double>(k) + y);
             };
-            const LobeRow lobe = look_at_lobe(static_cast<std::size_t>(image_.width()), ray);
+            const LobeRow lobe = look_at_lobes(static_cast<std::size_t>(image_.width()), ray);
             add_row(static_cast<int>(k), [&](std::size_t column) {
                 return lobe.over(column, kFarAway, surroundings(ray(column)));
             });
@@ -171,7 +192,8 @@ class SurfacePainting : public Painting {
     int passes_ = 0;
     const SurfaceBody* body_ = nullptr;
     const DomePicture* dome_ = nullptr;
-    const Lobe* lobe_ = nullptr;
+    std::vector<const Lobe*> lobes_;
+    double radius_ = 0;  ///< of the largest of them
     uchar* bits_ = nullptr;
 };
 

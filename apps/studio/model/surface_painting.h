@@ -42,7 +42,7 @@ struct SurfacePicture {
     SurfaceShading shading = SurfaceShading::Normals;
     std::shared_ptr<const FacetSet> selected;  ///< facets that stand out
     std::optional<Vec3> metal = {};            ///< of the relief, see SurfaceBody::colour
-    std::shared_ptr<const Lazy<Lobe>> lobe = {};
+    std::vector<std::shared_ptr<const Lazy<Lobe>>> lobes = {};  ///< at the same place
 };
 
 /// A painting of it for a camera of the world: the first pass has one sample in the middle of each

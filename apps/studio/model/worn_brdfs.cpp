@@ -34,9 +34,13 @@ Rgb in_unit_interval(Rgb c) {
     return {in_unit_interval(c.r), in_unit_interval(c.g), in_unit_interval(c.b)};
 }
 
-bool wears_simulated(const ModelView& view) {
-    return view.brdf.type == BrdfType::Simulated ||
-           (view.compare && view.second.type == BrdfType::Simulated);
+/// The sides of a view that wear a simulated BRDF, left first.
+std::vector<const BrdfSettings*> simulated_sides(const ModelView& view) {
+    std::vector<const BrdfSettings*> sides;
+    if (!view.brdf_runs) return sides;
+    if (view.brdf.type == BrdfType::Simulated) sides.push_back(&view.brdf);
+    if (view.compare && view.second.type == BrdfType::Simulated) sides.push_back(&view.second);
+    return sides;
 }
 
 /// "GGX, alpha 0.3, material Au": what a specification must give, and what was set.
@@ -78,42 +82,57 @@ WornBrdfs::WornBrdfs(Drawing& drawing, QObject* parent)
 
 void WornBrdfs::wear(const ModelView& view) {
     view_ = view;
-    if (!view.brdf_runs || !wears_simulated(view)) {
-        background_.cancel();
-        wanted_.reset();
-        trouble_.clear();
-        return;
+    std::vector<Source> sources;
+    for (const BrdfSettings* side : simulated_sides(view)) {
+        const Source source = source_of(*side, drawing_);
+        if (std::find(sources.begin(), sources.end(), source) == sources.end())
+            sources.push_back(source);
     }
-    Source source;
-    if (!view.result.empty()) {
-        source.file = view.result;
-        source.written = QFileInfo(QString::fromStdString(view.result)).lastModified();
-    } else {
-        source.drawn = drawing_.result();
-    }
-    if (wanted_ != source) want(source);
+    if (wanted_ != sources) want(std::move(sources));
 }
 
-void WornBrdfs::want(const Source& source) {
-    wanted_ = source;
-    trouble_.clear();
-    background_.cancel();
-    const auto known = std::find_if(made_.begin(), made_.end(),
-                                    [&](const Simulated& s) { return s.source == source; });
-    if (source.drawn == nullptr && source.file.empty()) {
-        if (drawing_.state() == Drawing::State::Idle) emit failed(nothing_drawn());
-        emit changed();
-    } else if (known != made_.end()) {
-        std::rotate(made_.begin(), known, known + 1);
-        emit changed();
-    } else {
+WornBrdfs::Source WornBrdfs::source_of(const BrdfSettings& settings, const Drawing& drawing) {
+    if (settings.result.empty()) return {drawing.result(), {}, {}};
+    return {nullptr, settings.result,
+            QFileInfo(QString::fromStdString(settings.result)).lastModified()};
+}
+
+void WornBrdfs::want(std::vector<Source> sources) {
+    wanted_ = std::move(sources);
+    const auto is_wanted = [this](const Source& source) {
+        return std::find(wanted_.begin(), wanted_.end(), source) != wanted_.end();
+    };
+    std::erase_if(troubles_, [&](const auto& trouble) { return !is_wanted(trouble.first); });
+    if (making_ && !is_wanted(*making_)) {
+        background_.cancel();
+        making_.reset();
+    }
+    // What is worn is kept longest
+    std::stable_partition(made_.begin(), made_.end(),
+                          [&](const Simulated& made) { return is_wanted(made.source); });
+    make_next();
+    if (wanted_.empty()) return;
+    const bool nothing = std::any_of(wanted_.begin(), wanted_.end(),
+                                     [](const Source& source) { return source.nothing(); });
+    if (nothing && drawing_.state() == Drawing::State::Idle) emit failed(nothing_drawn());
+    emit changed();
+}
+
+void WornBrdfs::make_next() {
+    if (making_) return;
+    for (const Source& source : wanted_) {
+        const bool failed_before =
+            std::any_of(troubles_.begin(), troubles_.end(),
+                        [&](const auto& trouble) { return trouble.first == source; });
+        if (source.nothing() || failed_before || find(source) != nullptr) continue;
+        making_ = source;
         run_ = std::make_shared<Run>();
         const auto make = [this, source](Run& run, const auto&) -> Background::Delivery {
             const Simulated made = simulate(source, run);
             return [this, made] { take(made); };
         };
         background_.start(make, run_);
-        emit changed();
+        return;
     }
 }
 
@@ -123,7 +142,7 @@ WornBrdfs::Simulated WornBrdfs::simulate(const Source& source, Run& run) {
         const std::unique_ptr<Bsdf> file = formats.read(source.file);
         expect_colours(file->channels(), source.file);
         const QString name = QFileInfo(QString::fromStdString(source.file)).fileName();
-        return {source, bake_brdf(*file, run), name, {}};
+        return {source, bake_brdf(*file, run), name, true, {}};
     }
     const auto measurement =
         source.drawn != nullptr
@@ -136,18 +155,23 @@ WornBrdfs::Simulated WornBrdfs::simulate(const Source& source, Run& run) {
     return {source,
             bake_brdf(*table, run),
             QString::fromStdString(measurement->surface_name),
+            false,
             {{"experiment", to_text(measurement->experiment)},
              {"experiment-checksum", io::checksum(*measurement)}}};
 }
 
 void WornBrdfs::take(const Simulated& made) {
+    making_.reset();
     made_.insert(made_.begin(), made);
     if (made_.size() > kKept) made_.pop_back();
+    make_next();
     emit changed();
 }
 
 void WornBrdfs::give_up(const QString& sentence) {
-    trouble_ = sentence;
+    if (making_) troubles_.emplace_back(*making_, sentence);
+    making_.reset();
+    make_next();
     emit failed(sentence);
     emit changed();
 }
@@ -159,13 +183,19 @@ QString WornBrdfs::nothing_drawn() const {
 }
 
 QString WornBrdfs::trouble() const {
-    for (const BrdfSettings* side : {&view_.brdf, &view_.second}) {
-        if (!view_.brdf_runs || (side == &view_.second && !view_.compare)) continue;
-        if (side->type == BrdfType::Model && !analytic(*side).why.isEmpty())
-            return analytic(*side).why;
-    }
-    const bool nothing = wanted_ && wanted_->drawn == nullptr && wanted_->file.empty();
-    return nothing ? nothing_drawn() : trouble_;
+    if (!view_.brdf_runs) return {};
+    const QString left = trouble_of(view_.brdf);
+    return left.isEmpty() && view_.compare ? trouble_of(view_.second) : left;
+}
+
+QString WornBrdfs::trouble_of(const BrdfSettings& settings) const {
+    if (settings.type == BrdfType::Model) return analytic(settings).why;
+    const Source* source = wanted(settings);
+    if (source == nullptr) return {};
+    if (source->nothing()) return nothing_drawn();
+    for (const auto& [failed_source, sentence] : troubles_)
+        if (failed_source == *source) return sentence;
+    return {};
 }
 
 const WornBrdfs::Analytic& WornBrdfs::analytic(const BrdfSettings& settings) const {
@@ -184,14 +214,27 @@ const WornBrdfs::Analytic& WornBrdfs::analytic(const BrdfSettings& settings) con
     return analytic_.emplace_back(std::move(made));
 }
 
-const WornBrdfs::Simulated* WornBrdfs::worn() const {
-    if (made_.empty() || !wanted_ || made_.front().source != *wanted_) return nullptr;
-    return &made_.front();
+const WornBrdfs::Source* WornBrdfs::wanted(const BrdfSettings& settings) const {
+    const auto found = std::find_if(wanted_.begin(), wanted_.end(), [&](const Source& source) {
+        return source.file == settings.result;
+    });
+    return found == wanted_.end() ? nullptr : &*found;
+}
+
+const WornBrdfs::Simulated* WornBrdfs::worn(const BrdfSettings& settings) const {
+    const Source* source = wanted(settings);
+    return source == nullptr ? nullptr : find(*source);
+}
+
+const WornBrdfs::Simulated* WornBrdfs::find(const Source& source) const {
+    const auto found = std::find_if(made_.begin(), made_.end(),
+                                    [&](const Simulated& s) { return s.source == source; });
+    return found == made_.end() ? nullptr : &*found;
 }
 
 std::optional<Material> WornBrdfs::material(const BrdfSettings& settings) const {
     if (settings.type == BrdfType::Model) return analytic(settings).material;
-    const Simulated* simulated = worn();
+    const Simulated* simulated = worn(settings);
     if (simulated == nullptr) return std::nullopt;
     return Material(simulated->brdf,
                     {std::max(0.0, settings.normalize_factor), in_unit_interval(settings.diffuse)});
@@ -199,14 +242,22 @@ std::optional<Material> WornBrdfs::material(const BrdfSettings& settings) const 
 
 QString WornBrdfs::description(const BrdfSettings& settings) const {
     if (settings.type == BrdfType::Model) return model_description(settings);
-    const Simulated* simulated = worn();
-    const QString surface = simulated != nullptr ? simulated->surface : QString();
-    return surface.isEmpty() ? tr("Simulated") : tr("Simulated, %1").arg(surface);
+    const Simulated* simulated = worn(settings);
+    const QString name = simulated != nullptr ? simulated->name : QString();
+    if (simulated != nullptr && simulated->measured) return name;
+    return name.isEmpty() ? tr("Simulated") : tr("Simulated, %1").arg(name);
 }
 
 io::Provenance WornBrdfs::origin() const {
-    const Simulated* simulated = worn();
-    return simulated != nullptr && wears_simulated(view_) ? simulated->origin : io::Provenance{};
+    io::Provenance told;
+    std::string prefix;
+    for (const BrdfSettings* side : simulated_sides(view_)) {
+        if (const Simulated* simulated = worn(*side))
+            for (const auto& [key, value] : simulated->origin)
+                told.emplace_back(prefix + key, value);
+        prefix = "second-";
+    }
+    return told;
 }
 
 }  // namespace asperity::studio

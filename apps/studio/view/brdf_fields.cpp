@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "brdf_fields.h"
 
+#include "file_field.h"
+#include "file_kinds.h"
 #include "model_form.h"
 #include "rows.h"
 
@@ -94,12 +96,31 @@ QWidget* BrdfFields::simulated_fields() {
     auto* fields = new QWidget;
     fields->setObjectName(prefix_ + "simulated-fields");
     auto* form = new_rows(fields);
+    add_row(*form, tr("Result"), result(),
+            tr("A result of asperity simulate, or a measured BRDF in a format that is read (RGL, "
+               "MERL, Zemax, tables and others); empty: the layers drawn in the scene Microfacets "
+               "Surface"));
     add_row(*form, tr("Normalize Factor"), factor(),
             tr("0 … 100, no unit: multiplies the simulated BRDF [1/sr]; 1 is physically right"));
     add_row(*form, tr("Albedo"), colour("diffuse", tr("Albedo"), &BrdfSettings::diffuse),
             tr("Red, green, blue, each 0 … 1: albedo / π is added to the simulated BRDF (the "
                "diffuse part of thesis eq. 4.4)"));
     return fields;
+}
+
+QWidget* BrdfFields::result() {
+    auto* field = new FileField(prefix_ + "result", tr("Open Result or BRDF"), brdf_filter());
+    field->set_placeholder(tr("the layers drawn"));
+    const Which which = which_;
+    bindings_.follow([field, which](const StudioSettings& s) {
+        field->set_path(QString::fromStdString((s.model_view.*which).result));
+    });
+    connect(field, &FileField::chosen, this, [this, which](const QString& path) {
+        document_.change(tr("Open Result") + side_, [&](StudioSettings& s) {
+            (s.model_view.*which).result = path.toStdString();
+        });
+    });
+    return field;
 }
 
 QWidget* BrdfFields::factor() {

@@ -29,6 +29,7 @@ class BrdfFields : public QWidget {
     void add_type(QFormLayout& form);
     void show_model(const std::string& name);
     QWidget* simulated_fields();
+    QWidget* result();
     QWidget* factor();
     QWidget* colour(const QString& name, const QString& what, Rgb BrdfSettings::*value);
 

@@ -55,6 +55,10 @@ void DisplayFields::add_light() {
                       "direction as f stands high on the colour bar; grey where f is not known "
                       "well")),
         &SurfaceView::lobe);
+    add(make_check("show-model-lobes", tr("Lobes of models"),
+                   tr("The models that the plots show as shells in the light of the same layer, on "
+                      "the scale of the layer's own lobe, in the colours of their curves")),
+        &SurfaceView::model_lobes);
     add(make_check("show-dome", tr("Dome"), tr("The sky-map of the current layer, all around")),
         &SurfaceView::dome);
     add(make_check("show-beam", tr("Beam"), tr("The incident light as a wireframe")),

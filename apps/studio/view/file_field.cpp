@@ -39,7 +39,7 @@ FileField::FileField(const QString& name, const QString& title, const QString& f
 void FileField::set_path(const QString& path) {
     path_ = path;
     if (text_->text() != path) text_->setText(path);
-    text_->setCursorPosition(0);
+    text_->setCursorPosition(static_cast<int>(path.size()));  // the name is in sight, not the root
 }
 
 void FileField::set_placeholder(const QString& placeholder) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "file_kinds.h"
 
+#include <asperity/formats/bsdfs/bsdf_format.h>
 #include <asperity/formats/heights/heights_format.h>
 #include <asperity/formats/models/model_format.h>
 #include <asperity/formats/models/model_reader.h>
@@ -69,6 +70,17 @@ QString surface_filter() {
 
 QString model_filter() {
     return line(tr("Models"), model_endings()) + ";;" + tr("All files (*)");
+}
+
+QString brdf_filter() {
+    QStringList endings = {"asperity"};
+    const io::BsdfFormats formats;
+    for (const io::BsdfFormat& format : formats.rows())
+        if (format.read)
+            for (const std::string& ending : format.endings)
+                endings << QString::fromStdString(ending);
+    endings.removeDuplicates();
+    return line(tr("Results and BRDFs"), endings) + ";;" + tr("All files (*)");
 }
 
 QString open_filter() {

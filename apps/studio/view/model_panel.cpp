@@ -2,7 +2,6 @@
 #include "model_panel.h"
 
 #include "brdf_fields.h"
-#include "file_field.h"
 #include "light_fields.h"
 #include "look_fields.h"
 #include "rows.h"
@@ -26,32 +25,7 @@ ModelPanel::ModelPanel(Workbench& workbench, QWidget* parent)
 Section* ModelPanel::brdf_section() {
     auto* section = new Section(tr("BRDF Settings"));
     section->form().addRow(new BrdfFields(document_, bindings_, &ModelView::brdf, {}, {}));
-    section->form().addRow(result_field());
     return section;
-}
-
-/// Where the simulated BRDF comes from; seen when one is worn.
-QWidget* ModelPanel::result_field() {
-    auto* field = new QWidget;
-    auto* rows = new_rows(field);
-    auto* result =
-        new FileField("result", tr("Open Result"), tr("Results (*.asperity);;All files (*)"));
-    result->set_placeholder(tr("the layers drawn"));
-    add_row(*rows, tr("Result"), result,
-            tr("The result file that the simulated BRDF is made of; empty: the layers drawn in "
-               "the scene Microfacets Surface"));
-    bindings_.follow([field, result](const StudioSettings& settings) {
-        const ModelView& view = settings.model_view;
-        result->set_path(QString::fromStdString(view.result));
-        field->setVisible(view.brdf.type == BrdfType::Simulated ||
-                          (view.compare && view.second.type == BrdfType::Simulated));
-    });
-    connect(result, &FileField::chosen, this, [this](const QString& path) {
-        document_.change(tr("Open Result"), [&](StudioSettings& settings) {
-            settings.model_view.result = path.toStdString();
-        });
-    });
-    return field;
 }
 
 Section* ModelPanel::compare_section() {
@@ -60,7 +34,7 @@ Section* ModelPanel::compare_section() {
     compare->setObjectName("compare");
     compare->setToolTip(
         tr("Wear a second BRDF right of a line that can be dragged; left of it "
-           "that of the BRDF Settings"));
+           "that of the BRDF Settings. Each may be a model, the layers drawn, or a file"));
     section->form().addRow(compare);
     bindings_.bind(
         compare, tr("Compare"), [](const StudioSettings& s) { return s.model_view.compare; },

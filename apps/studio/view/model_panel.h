@@ -20,7 +20,6 @@ class ModelPanel : public QWidget {
   private:
     Section* brdf_section();
     Section* compare_section();
-    QWidget* result_field();
 
     Document& document_;
     Bindings bindings_;

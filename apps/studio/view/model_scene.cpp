@@ -7,6 +7,7 @@
 #include "split_handle.h"
 
 #include <asperity/core/error.h>
+#include <asperity/formats/bsdfs/bsdf_format.h>
 #include <asperity/formats/models/model_reader.h>
 #include <asperity/formats/results/result_file.h>
 
@@ -163,23 +164,32 @@ void ModelScene::take_file(const QString& path) {
     if (io::is_model_file(file)) {
         load(path);
     } else if (io::looks_like_result(file)) {
-        document.change(tr("Open Result"), [&](StudioSettings& settings) {
-            ModelView& view = settings.model_view;
-            view.result = file;
-            const bool worn = view.compare && view.second.type == BrdfType::Simulated;
-            if (!worn) view.brdf.type = BrdfType::Simulated;
-        });
+        wear_file(path);
     } else if (is_environment_file(path)) {
         document.change(tr("Environment"), [&](StudioSettings& settings) {
             settings.model_view.light = LightKind::Environment;
             settings.model_view.environment = file;
         });
+    } else if (io::BsdfFormats().can_read(file)) {
+        wear_file(path);
     } else {
         emit workbench_.complaint(
             tr("%1: neither a model (.obj .ply .stl .gltf .glb .3ds), nor a result of asperity "
-               "simulate, nor an environment (.exr .hdr)")
+               "simulate or another BRDF, nor an environment (.exr .hdr)")
                 .arg(path));
     }
+}
+
+/// The side that wears a simulated BRDF takes it, the left one where both or neither do.
+void ModelScene::wear_file(const QString& path) {
+    workbench_.document().change(tr("Open Result"), [&](StudioSettings& settings) {
+        ModelView& view = settings.model_view;
+        const bool right = view.compare && view.second.type == BrdfType::Simulated &&
+                           view.brdf.type != BrdfType::Simulated;
+        BrdfSettings& side = right ? view.second : view.brdf;
+        side.type = BrdfType::Simulated;
+        side.result = path.toStdString();
+    });
 }
 
 void ModelScene::save_picture(const QString& path) {

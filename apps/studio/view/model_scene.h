@@ -52,6 +52,7 @@ class ModelScene : public QWidget {
     void show_split();
     void paint_over(QPainter& painter) const;
     void take_file(const QString& path);
+    void wear_file(const QString& path);
     QSize full_size() const;
     void wait_for_picture();
 

@@ -32,15 +32,6 @@ std::vector<OverlayModel> shown_models(const PlotSource& source) {
     return overlay_models(source.view, source.surface_alpha, source.layers.head.get());
 }
 
-/// The ink of the analytic model at a place of their list; they begin anew after the last.
-plots::PlotInk model_ink(std::size_t place) {
-    using plots::PlotInk;
-    constexpr std::array kInks = {PlotInk::Eighth,   PlotInk::CookTorrance, PlotInk::Ggx,
-                                  PlotInk::Beckmann, PlotInk::Fifth,        PlotInk::Seventh,
-                                  PlotInk::Sixth};
-    return kInks[place % kInks.size()];
-}
-
 void add_models(plots::CurveSet& set, const ModelValues* models, const PlotSource& source,
                 const std::string& quantity) {
     if (models == nullptr) return;

@@ -8,6 +8,7 @@
 #include <QStringList>
 
 #include <algorithm>
+#include <array>
 
 namespace asperity::studio {
 
@@ -88,6 +89,14 @@ std::vector<OverlayModel> overlay_models(const PlotView& view, std::optional<dou
         ++place;
     }
     return shown;
+}
+
+plots::PlotInk model_ink(std::size_t place) {
+    using plots::PlotInk;
+    constexpr std::array kInks = {PlotInk::Eighth,   PlotInk::CookTorrance, PlotInk::Ggx,
+                                  PlotInk::Beckmann, PlotInk::Fifth,        PlotInk::Seventh,
+                                  PlotInk::Sixth};
+    return kInks[place % kInks.size()];
 }
 
 }  // namespace asperity::studio

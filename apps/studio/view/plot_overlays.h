@@ -4,6 +4,7 @@
 #include "../model/settings.h"
 
 #include <asperity/gonio/measurement.h>
+#include <asperity/plots/plot_style.h>
 
 #include <QString>
 
@@ -30,5 +31,8 @@ struct OverlayModel {
 /// what was set otherwise.
 std::vector<OverlayModel> overlay_models(const PlotView& view, std::optional<double> surface_alpha,
                                          const Measurement* measurement);
+
+/// The ink of the analytic model at a place of their list; they begin anew after the last.
+plots::PlotInk model_ink(std::size_t place);
 
 }  // namespace asperity::studio

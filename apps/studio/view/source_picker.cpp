@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "source_picker.h"
 
+#include "file_kinds.h"
+
 #include <asperity/bsdf/spec.h>
-#include <asperity/formats/bsdfs/bsdf_format.h>
 
 #include <QVBoxLayout>
 
 namespace asperity::studio {
-
-QString brdf_filter() {
-    QStringList endings = {"*.asperity"};
-    const io::BsdfFormats formats;
-    for (const io::BsdfFormat& format : formats.rows())
-        if (format.read)
-            for (const std::string& ending : format.endings)
-                endings << "*." + QString::fromStdString(ending);
-    endings.removeDuplicates();
-    return QObject::tr("Results and BRDFs (%1);;All files (*)").arg(endings.join(' '));
-}
 
 SourcePicker::SourcePicker(const QString& name, Workbench& workbench, Models models,
                            QWidget* parent)

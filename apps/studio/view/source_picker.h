@@ -42,7 +42,4 @@ class SourcePicker : public QWidget {
     QString path_;
 };
 
-/// Results, and BRDFs in all formats that can be read, as QFileDialog filters.
-QString brdf_filter();
-
 }  // namespace asperity::studio

@@ -75,6 +75,12 @@ bool same_look(const io::SkyMapSettings& a, const io::SkyMapSettings& b) {
            a.channel == b.channel;
 }
 
+/// Whether the plots show the same models, made alike.
+bool same_models(const PlotView& a, const PlotView& b) {
+    return a.follow_surface == b.follow_surface && a.overlays == b.overlays &&
+           a.overlay_settings == b.overlay_settings;
+}
+
 /// The incidence of a layer; none if the experiment has no such layer.
 std::optional<Incidence> incidence_of(const IlluminationSettings& light, int number) {
     const std::vector<Incidence> all = incidences(light);
@@ -150,10 +156,13 @@ void SurfaceScene::follow_settings(const StudioSettings& before) {
     if (then.whole_dome != now.whole_dome) set_home(*viewport_, now);
     if (then.camera != now.camera) viewport_->set_camera(now.camera);
     const Detector wanted(workbench_.settings().experiment.detector);
-    const bool other_layer = then.current_layer != now.current_layer || then.dome != now.dome ||
-                             then.lobe != now.lobe || !same_look(then.sky_map, now.sky_map) ||
-                             wanted.cells() != detector_.cells() ||
-                             wanted.kind() != detector_.kind();
+    const PlotView& plots = workbench_.settings().plots;
+    const bool other_models = then.model_lobes != now.model_lobes ||
+                              (now.model_lobes && !same_models(before.plots, plots));
+    const bool other_layer =
+        other_models || then.current_layer != now.current_layer || then.dome != now.dome ||
+        then.lobe != now.lobe || !same_look(then.sky_map, now.sky_map) ||
+        wanted.cells() != detector_.cells() || wanted.kind() != detector_.kind();
     if (other_layer) take_layer();
     if (other_layer || then.shading != now.shading ||
         metal_of(before.experiment.optics) != metal_of(workbench_.settings().experiment.optics))
@@ -168,6 +177,8 @@ void SurfaceScene::take_surface() {
         surface
             ? std::make_shared<const Lazy<SurfaceBody>>([surface] { return SurfaceBody(*surface); })
             : nullptr;
+    // Models may follow its slopes
+    if (workbench_.settings().surface_view.model_lobes) take_layer();
     show_picture();
 }
 
@@ -178,6 +189,7 @@ void SurfaceScene::take_layer() {
     detector_ = layers.head ? layers.head->detector : Detector(settings.experiment.detector);
     dome_ = nullptr;
     lobe_ = nullptr;
+    model_lobes_.clear();
     const auto found = layers.by_number.find(settings.surface_view.current_layer);
     if (!layers.head || found == layers.by_number.end()) return;
     const auto made = [&, layer = found->second]<class Part>(std::type_identity<Part>) {
@@ -188,6 +200,11 @@ void SurfaceScene::take_layer() {
     };
     if (settings.surface_view.dome) dome_ = made(std::type_identity<DomePicture>());
     if (settings.surface_view.lobe) lobe_ = made(std::type_identity<Lobe>());
+    if (!settings.surface_view.model_lobes) return;
+    std::optional<double> alpha;
+    if (workbench_.surface().surface()) alpha = workbench_.surface().statistics().rms_gradient;
+    model_lobes_ = model_lobes(settings.plots, alpha, layers, found->second,
+                               settings.surface_view.sky_map, palette());
 }
 
 /// The facets of the paths into a cell stand out; those of all paths would be all over.
@@ -200,12 +217,15 @@ void SurfaceScene::take_paths() {
 
 void SurfaceScene::show_picture() {
     forget_lines();
+    std::vector<std::shared_ptr<const Lazy<Lobe>>> lobes;
+    if (lobe_) lobes.push_back(lobe_);
+    for (const ModelLobe& model : model_lobes_) lobes.push_back(model.lobe);
     const SurfacePicture picture{body_,
                                  dome_,
                                  workbench_.settings().surface_view.shading,
                                  selected_facets_,
                                  metal_of(workbench_.settings().experiment.optics),
-                                 lobe_};
+                                 std::move(lobes)};
     viewport_->set_picture(
         [picture](const Camera& camera) { return paint_surface(picture, camera); });
 }
@@ -326,8 +346,9 @@ void SurfaceScene::paint_labels(QPainter& painter) const {
         text += tr(" · drawn with other settings");
     paint_label(painter, area, Qt::AlignTop | Qt::AlignLeft, text);
     if (const QString& trouble = workbench_.surface().trouble(); !trouble.isEmpty())
-        paint_label(painter, area.adjusted(0, 2 * em, 0, 0), Qt::AlignTop | Qt::AlignLeft,
+        paint_label(painter, area.adjusted(0, 2 * em, 0, 0), Qt::AlignTop | Qt::AlignHCenter,
                     tr("Not made: %1").arg(in_words_of_forms(trouble)));
+    paint_lobe_legend(painter, area.topLeft() + QPointF(0.6, 2.4) * em, model_lobes_);
     paint_axis_cross(painter, area.bottomLeft() + QPointF(3, -3) * em, viewport_->shown_camera());
     if (!workbench_.light().paths().empty())
         paint_bounce_legend(painter, area.bottomLeft() + QPointF(6.5, -0.6) * em,

@@ -3,6 +3,7 @@
 
 #include "../model/surface_painting.h"
 #include "../model/workbench.h"
+#include "model_lobes.h"
 #include "viewport.h"
 
 #include <QTimer>
@@ -55,6 +56,7 @@ class SurfaceScene : public QWidget {
     std::shared_ptr<const Lazy<SurfaceBody>> body_;
     std::shared_ptr<const Lazy<DomePicture>> dome_;
     std::shared_ptr<const Lazy<Lobe>> lobe_;
+    std::vector<ModelLobe> model_lobes_;
     std::shared_ptr<const FacetSet> selected_facets_;
     Detector detector_;
     std::optional<QPointF> hovered_;
