@@ -35,6 +35,7 @@ OPTIONS = {
     "k": (["--fresnel", "conductor", "--ior", "1.5"], ["0", "1,2,3,4"]),
     "wavelengths": (["--fresnel", "conductor", "--material", "Au"], []),
     "bounces": ([], []),
+    "surfaces": ([], []),
     "jitter": ([], []),
     "rays": ([], []),
     "until": ([], []),

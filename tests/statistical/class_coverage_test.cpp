@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Do 95 % intervals of the class hold the truth 95 % of the time? Many runs of 16 surfaces each,
-// the truth being the mean over 1500 other surfaces.
+// the truth being the mean over 1000 other surfaces.
 #include <asperity/gonio/measure.h>
 #include <asperity/gonio/noise_shares.h>
 #include <asperity/surface/make_surface.h>
@@ -14,7 +14,7 @@
 namespace asperity {
 namespace {
 
-constexpr int kRuns = 120, kTruth = 1500;
+constexpr int kRuns = 80, kTruth = 1000;
 constexpr double kStudent15 = 2.1314;  // 97.5 % quantile, 15 degrees of freedom: 16 surfaces
 
 Measurement measured(Experiment e, std::uint64_t surface_seed) {
