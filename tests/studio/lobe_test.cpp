@@ -67,7 +67,7 @@ void LobeTest::even_light_makes_a_hemisphere() {
             const Hit hit = look(lobe, 10 * d, -1.0 * d);
             QVERIFY(hit.found());
             // Between its corners the net lies a little inside the sphere
-            const double radius = 10 - double{hit.distance};
+            const double radius = 10 - static_cast<double>(hit.distance);
             QVERIFY(radius <= Lobe::kLobeRadius + 1e-4 && radius > 0.99 * Lobe::kLobeRadius);
             QVERIFY(dot(Lobe::direction({10 * d, -1.0 * d}, hit), from_spherical(theta, phi)) >
                     0.9999);
@@ -82,7 +82,7 @@ void LobeTest::reaches_as_far_as_f_is_large() {
         const Lobe lobe(squared.head, squared.layer, kLinear);
         const auto radius = [&](double theta) {
             const Vec3 d = SurfaceFrame::direction_to_world(from_spherical(theta, 1.1));
-            return 10 - double{look(lobe, 10 * d, -1.0 * d).distance};
+            return 10 - static_cast<double>(look(lobe, 10 * d, -1.0 * d).distance);
         };
         QVERIFY(std::abs(radius(radians(2)) / Lobe::kLobeRadius - 1) < 0.02);
         QVERIFY(std::abs(radius(radians(45)) / Lobe::kLobeRadius - 0.5) < 0.02);
