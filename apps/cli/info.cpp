@@ -9,11 +9,14 @@
 #include "verbs.h"
 
 #include <asperity/core/error.h>
+#include <asperity/core/parse_number.h>
 #include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/experiment_text.h>
+#include <asperity/gonio/region.h>
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 
 namespace asperity::cli {
@@ -24,6 +27,8 @@ constexpr const char* kClosing =
     "Examples\n"
     "  asperity info metal.asperity\n"
     "  asperity info metal.asperity --json | jq '.layers[0].albedo'\n"
+    "  asperity info metal.asperity --region 20:40,170:190     (what leaves there, with its "
+    "error)\n"
     "  asperity info metal.asperity --config > run.txt\n"
     "  asperity simulate --config run.txt -o again.asperity    (the same checksum)\n";
 
@@ -41,6 +46,100 @@ std::string text_of_result(const Measurement& m, const std::string& path) {
     return text + layer_table(m, std::nullopt) + closing_lines(m);
 }
 
+/// "theta0:theta1,phi0:phi1" in degrees.
+Region region_of(const std::string& text) {
+    const auto bad = [&] {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("{} is not of the form theta0:theta1,phi0:phi1, in degrees",
+                                in_quotes(text)),
+                    "region");
+    };
+    std::vector<double> angles;
+    const auto ranges = split(text, ',');
+    for (const std::string_view range : ranges) {
+        const auto ends = split(range, ':');
+        if (ends.size() != 2) bad();
+        for (const std::string_view end : ends) {
+            const auto degrees = parse_double(end);
+            if (!degrees) bad();
+            angles.push_back(radians(*degrees));
+        }
+    }
+    if (ranges.size() != 2) bad();
+    return {angles[0], angles[1], angles[2], angles[3]};
+}
+
+/// The region, the edges of whose cells are of the detector.
+struct CellsOfRegion {
+    CellsOfRegion(const Measurement& m, const std::string& text)
+        : cells(cells_in(m.detector, region_of(text))) {
+        if (cells.empty())
+            throw Error(ErrorCode::Usage,
+                        fmt::format("{} holds the centre of no cell: they are {:g} x {:g} degrees",
+                                    in_quotes(text), 90.0 / m.detector.rows(),
+                                    360.0 / m.detector.columns()),
+                        "region");
+    }
+    double projected_solid_angle(const Detector& d) const {
+        double sum = 0;
+        for (const int cell : cells) sum += d.projected_solid_angle(cell / d.columns());
+        return sum;
+    }
+
+    std::vector<int> cells;
+};
+
+std::string text_of_region(const Measurement& m, const std::string& asked) {
+    const CellsOfRegion region(m, asked);
+    std::string text = fmt::format(
+        "region {}: {} cells, those whose centre is in it, projected solid angle {:.4g} sr\n",
+        asked, region.cells.size(), region.projected_solid_angle(m.detector));
+    bool few = false, unknown = false;
+    for (const Layer& layer : m.layers) {
+        text += fmt::format("layer {:2}, theta {:.4g}, phi {:.4g}:", layer.number,
+                            degrees(layer.theta_i), degrees(layer.phi_i));
+        for (int c = 0; c < m.channels(); ++c) {
+            const EnergyOfCells sum = energy_of_cells(m, layer, c, region.cells);
+            text += fmt::format(" {} {}{}", m.channel_names[static_cast<std::size_t>(c)],
+                                with_error(sum.energy, sum.error), sum.few_rays ? "*" : "");
+            few = few || sum.few_rays;
+            unknown = unknown || std::isnan(sum.error);
+        }
+        text += "\n";
+    }
+    text +=
+        "energy as a fraction of what comes in; (12): standard error of the last digits, from "
+        "batches\n";
+    if (few) text += "*: less than 10 rays, the error is a rough one\n";
+    if (unknown)
+        text +=
+            "(?): this result does not hold what errors of several cells come from: measure it "
+            "anew\n";
+    return text;
+}
+
+Json json_of_region(const Measurement& m, const std::string& asked) {
+    const CellsOfRegion region(m, asked);
+    Json layers = Json::array();
+    for (const Layer& layer : m.layers) {
+        Json energy = Json::array(), error = Json::array(), few = Json::array();
+        for (int c = 0; c < m.channels(); ++c) {
+            const EnergyOfCells sum = energy_of_cells(m, layer, c, region.cells);
+            energy.push_back(sum.energy);
+            error.push_back(std::isnan(sum.error) ? Json() : Json(sum.error));
+            few.push_back(sum.few_rays);
+        }
+        layers.push_back({{"number", layer.number},
+                          {"energy", energy},
+                          {"energy_stderr", error},
+                          {"few_rays", few}});
+    }
+    return {{"asked", asked},
+            {"cells", region.cells.size()},
+            {"projected_solid_angle", region.projected_solid_angle(m.detector)},
+            {"layers", layers}};
+}
+
 class InfoVerb {
   public:
     explicit InfoVerb(CLI::App& app) {
@@ -48,7 +147,11 @@ class InfoVerb {
         app.add_flag("--json", json_, "print one JSON object")->group(kOutput);
         app.add_flag("--config", config_, "print the experiment as a --config file")
             ->group(kOutput);
-        set_help(app, "info FILE [--json | --config]", kClosing);
+        region_ = add_text(app, "--region", "T0:T1,P0:P1",
+                           "energy of the cells whose centres have polar angles from T0 to T1 and "
+                           "azimuths from P0 to P1, in degrees, with its error",
+                           kOutput);
+        set_help(app, "info FILE [--region T0:T1,P0:P1] [--json | --config]", kClosing);
     }
 
     int run() const {
@@ -56,9 +159,16 @@ class InfoVerb {
         if (json_ && config_) {
             throw Error(ErrorCode::Usage, "info prints either --json or --config, not both");
         }
+        const bool region = region_->count() > 0;
+        if (region && config_)
+            throw Error(ErrorCode::Usage, "a --config file has no --region", "region");
         const Measurement m = load_result(text_of(file_));
         if (json_) {
-            write_json(to_json(m, io::checksum(m)));
+            Json json = to_json(m, io::checksum(m));
+            if (region) json["region"] = json_of_region(m, text_of(region_));
+            write_json(json);
+        } else if (region) {
+            write_out(text_of_region(m, text_of(region_)));
         } else {
             write_out(config_ ? to_text(m.experiment) : text_of_result(m, text_of(file_)));
         }
@@ -66,7 +176,7 @@ class InfoVerb {
     }
 
   private:
-    CLI::Option* file_ = nullptr;
+    CLI::Option *file_ = nullptr, *region_ = nullptr;
     bool json_ = false, config_ = false;
 };
 

@@ -46,6 +46,9 @@ class Reducer {
     void sum(std::vector<std::uint64_t>& values) const {
         reduce(values.data(), values.size(), sizeof(std::uint64_t), MPI_UINT64_T, MPI_SUM);
     }
+    void sum(std::vector<std::uint32_t>& values) const {
+        reduce(values.data(), values.size(), sizeof(std::uint32_t), MPI_UINT32_T, MPI_SUM);
+    }
     void sum(std::vector<Wide>& values) const {
         reduce(values.data(), values.size(), sizeof(Wide), wide_, add_wide_);
     }
@@ -127,18 +130,23 @@ std::optional<LayerSums> sum_over_ranks(const std::optional<LayerSums>& mine, co
          {&sums.energy, &sums.escaped_by_bounce, &sums.absorbed, &sums.truncated, &sums.edge})
         reducer.sum(*array);
     reducer.sum(sums.squares);
-    if (any(!sums.stretched.empty(), ranks)) {
-        sums.stretched.resize(sums.squares.size());
-        reducer.sum(sums.stretched);
-    }
+    for (auto* array : {&sums.stretched, &sums.exact})
+        if (any(!array->empty(), ranks)) {
+            array->resize(sums.squares.size());
+            reducer.sum(*array);
+        }
     if (any(!sums.halves.cells.empty(), ranks)) {
         sums.halves.cells.resize(sums.squares.size());
         sums.halves.albedo.resize(sums.albedo.size());
         reducer.sum(sums.halves.cells);
         reducer.sum(sums.halves.albedo);
     }
+    reducer.sum(sums.reached);
     reducer.sum(sums.bounces);
     reducer.sum(sums.albedo);
+    reducer.sum(sums.albedo_by_age);
+    reducer.sum(sums.groups.rays);
+    reducer.sum(sums.groups.energy);
     return sums;
 }
 

@@ -22,6 +22,7 @@
 #include <asperity/detector/batch_set.h>
 #include <asperity/detector/batch_sums.h>
 #include <asperity/detector/detector.h>
+#include <asperity/detector/group_sums.h>
 #include <asperity/detector/illumination.h>
 #include <asperity/detector/layer_sums.h>
 #include <asperity/fit/fit.h>
@@ -52,6 +53,7 @@
 #include <asperity/gonio/measurement.h>
 #include <asperity/gonio/merge.h>
 #include <asperity/gonio/noise_shares.h>
+#include <asperity/gonio/region.h>
 #include <asperity/instruments/gloss_geometry.h>
 #include <asperity/instruments/glossmeter.h>
 #include <asperity/measured/albedo_by_angle.h>

@@ -22,6 +22,7 @@ struct SumShape {
     std::size_t elements = 1;  ///< 1: energy; 16: Mueller matrices
     std::size_t orders = 1;    ///< bounce orders kept apart by cell
     std::size_t bounces = 1;   ///< bounce orders kept apart in the sums over all cells
+    std::size_t columns = 1;   ///< cells are rows of so many, one after the other
 
     std::size_t places() const { return sides * cells; }
     std::size_t values() const { return channels * elements; }

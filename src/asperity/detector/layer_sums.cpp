@@ -3,9 +3,11 @@
 
 #include <asperity/core/energy.h>
 #include <asperity/core/error.h>
+#include <asperity/detector/cell_estimates.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -63,8 +65,11 @@ LayerSums::LayerSums(const SumShape& of, std::uint64_t largest)
       truncated(of.channels),
       edge(of.channels),
       squares(of.places() * of.values()),
+      reached(squares.size()),
       bounces(escaped_by_bounce.size()),
-      albedo(of.sides * of.values()) {}
+      albedo(of.sides * of.values()),
+      albedo_by_age(kAges * albedo.size()),
+      groups(of) {}
 
 std::uint64_t LayerSums::scaled(std::uint64_t value, std::uint64_t of_rays) const {
     if (of_rays == largest_batch) return value;
@@ -85,12 +90,14 @@ void LayerSums::add(std::uint64_t number, const BatchSums& b) {
     add_to(truncated, b.truncated_);
     add_to(edge, b.edge_);
     add_to(escaped_by_bounce, b.escaped_by_bounce_);
-    add_spreads(b);
+    add_spreads(number, b);
+    const std::size_t group = number % GroupSums::kGroups;
+    groups.rays[group] += b.rays;
     const auto add = [&]<std::uint64_t kUnit>(const auto& paths) {
         if (b.rays == largest_batch)
-            add_places<kUnit>(b, paths);
+            add_places<kUnit>(group, b, paths);
         else
-            add_scaled_places<kUnit>(b, paths);
+            add_scaled_places<kUnit>(group, b, paths);
     };
     if (b.counted_)
         add.operator()<kRayEnergy>(b.count_);
@@ -117,18 +124,22 @@ void LayerSums::add_halves(std::uint64_t number, BatchSums& first, const BatchSu
     add(halves.albedo, escaped);
 }
 
-void LayerSums::add_spreads(const BatchSums& b) {
+void LayerSums::add_spreads(std::uint64_t number, const BatchSums& b) {
     for (std::size_t k = 0; k < bounces.size(); ++k)
         add_to(bounces[k], scaled(b.escaped_by_bounce_[k], b.rays));
+    const std::size_t age =
+        std::min<std::size_t>(static_cast<std::size_t>(std::bit_width(number)), kAges - 1);
     for (std::size_t k = 0; k < albedo.size(); ++k) {
         const auto* first = &b.escaped_by_bounce_[k * shape.bounces];
-        add_to(albedo[k],
-               scaled(std::accumulate(first, first + shape.bounces, std::uint64_t{0}), b.rays));
+        const std::uint64_t all =
+            scaled(std::accumulate(first, first + shape.bounces, std::uint64_t{0}), b.rays);
+        add_to(albedo[k], all);
+        add_to(albedo_by_age[age * albedo.size() + k], all);
     }
 }
 
 template <std::uint64_t kUnit, class Value>
-void LayerSums::add_places(const BatchSums& b, const std::vector<Value>& paths) {
+void LayerSums::add_places(std::size_t group, const BatchSums& b, const std::vector<Value>& paths) {
     Wide* products = nullptr;
     if (b.spread_ > 0) {
         // Surfaces of their own spread light in ways of their own
@@ -137,6 +148,8 @@ void LayerSums::add_places(const BatchSums& b, const std::vector<Value>& paths) 
         waiting_.count += b.spread_;
         waiting_.squares += Wide{b.spread_} * b.spread_;
         waiting_.products.resize(squares.size());
+        waiting_.of_group.resize(GroupSums::kGroups);
+        waiting_.of_group[group] += b.spread_;
         products = waiting_.products.data();
     }
     if (paths.empty()) return;
@@ -160,13 +173,16 @@ void LayerSums::add_places(const BatchSums& b, const std::vector<Value>& paths) 
         for (std::size_t k = 0; k < count; ++k) {
             if (total[k] == 0) continue;
             squares[begin + k] += square(total[k]);
+            ++reached[begin + k];
             if (products) products[begin + k] += product(total[k], b.spread_);
         }
+        groups.add(shape, group, begin, {total, count});
     });
 }
 
 template <std::uint64_t kUnit, class Value>
-void LayerSums::add_scaled_places(const BatchSums& b, const std::vector<Value>& paths) {
+void LayerSums::add_scaled_places(std::size_t group, const BatchSums& b,
+                                  const std::vector<Value>& paths) {
     const std::size_t order = squares.size();
     if (stretched.empty()) stretched.resize(order);
     std::vector<std::uint64_t> total(order);
@@ -181,9 +197,15 @@ void LayerSums::add_scaled_places(const BatchSums& b, const std::vector<Value>& 
                     for (std::size_t k = begin; k < end; ++k)
                         add(o, k, paths[o * order + k] * kUnit);
         });
-    if (b.spread_ > 0)
-        for_spread(*b.spread_light_, shape.values(),
-                   [&](std::size_t k, std::uint64_t each) { add(0, k, b.spread_ * each); });
+    for (std::size_t k = 0; k < order; ++k) reached[k] += total[k] > 0;
+    if (b.spread_ > 0) {
+        exact.resize(order);
+        for_spread(*b.spread_light_, shape.values(), [&](std::size_t k, std::uint64_t each) {
+            add(0, k, b.spread_ * each);
+            exact[k] += b.spread_ * each;
+        });
+    }
+    groups.add(shape, group, 0, total);
     for (std::size_t k = 0; k < order; ++k) {
         if (total[k] == 0) continue;
         const std::uint64_t stretch = scaled(total[k], b.rays);
@@ -194,8 +216,11 @@ void LayerSums::add_scaled_places(const BatchSums& b, const std::vector<Value>& 
 
 void LayerSums::settle() {
     if (settled()) return;
+    exact.resize(squares.size());
+    groups.spread(shape, waiting_.of_group, *waiting_.light);
     for_spread(*waiting_.light, shape.values(), [&](std::size_t k, std::uint64_t each) {
         energy[k] += waiting_.count * each;
+        exact[k] += waiting_.count * each;
         squares[k] += 2 * each * waiting_.products[k] + square(each) * waiting_.squares;
     });
     waiting_ = {};
@@ -223,17 +248,21 @@ LayerSums& LayerSums::operator+=(const LayerSums& other) {
     add_to(edge, other.edge);
     add_to(squares, other.squares);
     add_to(stretched, other.stretched);
+    add_to(exact, other.exact);
+    add_to(reached, other.reached);
     add_to(bounces, other.bounces);
     add_to(albedo, other.albedo);
     add_to(halves.cells, other.halves.cells);
     add_to(halves.albedo, other.halves.albedo);
+    add_to(albedo_by_age, other.albedo_by_age);
+    add_to(groups.rays, other.groups.rays);
+    add_to(groups.energy, other.groups.energy);
     return *this;
 }
 
-LayerSums::Estimate LayerSums::estimate(const Spread& s) const {
+LayerSums::Estimate LayerSums::estimate(const Spread& s, std::uint64_t batches) const {
     // Standard error of the mean over K batches: sqrt((K sum e^2 - (sum e)^2) / (K - 1)) / K. The
     // difference is exact: of batches of e <= 2^64 / K it is less than 2^126
-    const std::uint64_t batches = this->batches();
     const auto sum = static_cast<std::int64_t>(s.sum);
     const bool negative = shape.elements > 1 && sum < 0;
     const std::uint64_t size = negative ? 0 - s.sum : s.sum;
@@ -266,13 +295,15 @@ LayerSums::Estimate LayerSums::cell(std::size_t k) const {
 LayerSums::Errors LayerSums::relative_errors() const {
     Errors worst;
     const std::size_t values = shape.values();
+    const std::vector<Estimate> all_cells = cell_estimates(*this);
     for (std::size_t a = 0; a < albedo.size(); a += shape.elements) {
         const Estimate all = estimate(albedo[a]);
         worst.albedo = std::max(worst.albedo, all.relative());
         // The strongest cells of this side that together carry 90 % of the energy
         const std::size_t first = a / values * shape.cells * values + a % values;
         std::vector<Estimate> of_cells;
-        for (std::size_t c = 0; c < shape.cells; ++c) of_cells.push_back(cell(first + c * values));
+        for (std::size_t c = 0; c < shape.cells; ++c)
+            of_cells.push_back(all_cells[first + c * values]);
         std::sort(of_cells.begin(), of_cells.end(),
                   [](const Estimate& x, const Estimate& y) { return x.mean > y.mean; });
         const double enough = 0.9 * all.mean;
@@ -284,6 +315,21 @@ LayerSums::Errors LayerSums::relative_errors() const {
         }
     }
     return worst;
+}
+
+double LayerSums::relative_error_told_by_first(unsigned k) const {
+    const std::uint64_t first = std::uint64_t{1} << k;
+    double worst = 0;
+    for (std::size_t a = 0; a < albedo.size(); a += shape.elements) {
+        Spread sum;
+        for (std::size_t age = 0; age <= k; ++age) {
+            const Spread& more = albedo_by_age[age * albedo.size() + a];
+            sum.sum += more.sum;
+            sum.squares += more.squares;
+        }
+        worst = std::max(worst, estimate(sum, first).relative());
+    }
+    return worst * std::sqrt(static_cast<double>(first) / static_cast<double>(batches()));
 }
 
 }  // namespace asperity

@@ -148,7 +148,10 @@ TEST(LayerSums, ErrorsOfCellsAreOfThoseThatCarryNinetyPercent) {
     }
     // The third cell, 10 +- 2, is needed for 90; the fourth, 8 +- 2, is not
     EXPECT_EQ(sums.relative_errors().albedo, 0);
-    EXPECT_NEAR(sums.relative_errors().cells, 0.2, 1e-12);
+    // Of the third 20 rays came, and none beside it: 20 / 3 a cell around, which lets one ray of
+    // 200 count by 20 / 3 : (20 / 3 + 1 / 2)
+    const double ray = std::sqrt(20 / 3.0 / (20 / 3.0 + 0.5)) / 20;
+    EXPECT_NEAR(sums.relative_errors().cells, std::hypot(0.2, ray), 1e-12);
 }
 
 /// A batch of `rays` with one path into each of two places, and the others spread over two.

@@ -60,7 +60,10 @@ class LayerInWork {
     void close();
 
   private:
+    /// Whether errors are small enough, and whether it is not for luck that they seem to be.
     bool accurate();
+    bool confirmed() const;
+    bool reached();
     std::uint64_t more();
 
     const BatchPlan& plan_;

@@ -2,6 +2,7 @@
 #include <asperity/gonio/layer_of_sums.h>
 
 #include <asperity/core/error.h>
+#include <asperity/detector/cell_estimates.h>
 
 namespace asperity {
 
@@ -69,14 +70,21 @@ Layer layer_of(const Incidence& light, const LayerSums& sums) {
     spread.stretched.resize(sums.stretched.size());
     spread.halves.cells.resize(sums.halves.cells.size());
     spread.halves.albedo = sums.halves.albedo;
+    spread.exact.resize(sums.exact.size());
+    spread.reached.resize(sums.reached.size());
+    const std::vector<LayerSums::Estimate> cells = cell_estimates(sums);
     for_places(shape, [&](std::size_t out, std::size_t place) {
+        layer.stderr_energy[out] = static_cast<float>(cells[place].error);
         if (!spread.halves.cells.empty()) spread.halves.cells[out] = sums.halves.cells[place];
-        layer.stderr_energy[out] = static_cast<float>(sums.cell(place).error);
         spread.squares[out] = sums.squares[place];
+        spread.reached[out] = sums.reached[place];
         if (!spread.stretched.empty()) spread.stretched[out] = sums.stretched[place];
+        if (!spread.exact.empty()) spread.exact[out] = sums.exact[place];
     });
     spread.bounces = sums.bounces;
     spread.albedo = sums.albedo;
+    spread.albedo_by_age = sums.albedo_by_age;
+    spread.groups = sums.groups;
     for (const LayerSums::Spread& s : sums.albedo)
         layer.stderr_albedo.push_back(sums.estimate(s).error);
     for (const LayerSums::Spread& s : sums.bounces)
@@ -86,7 +94,7 @@ Layer layer_of(const Incidence& light, const LayerSums& sums) {
 
 LayerSums sums_of(const Layer& layer, const SumShape& shape) {
     const LayerSpread& spread = layer.spread;
-    if (spread.squares.empty())
+    if (spread.squares.empty() || spread.reached.empty())
         throw Error(
             ErrorCode::InvalidInput,
             "it does not hold what its errors come from (results of older versions do not): "
@@ -106,13 +114,18 @@ LayerSums sums_of(const Layer& layer, const SumShape& shape) {
     sums.stretched.resize(spread.stretched.size());
     sums.halves.cells.resize(spread.halves.cells.size());
     sums.halves.albedo = spread.halves.albedo;
+    sums.exact.resize(spread.exact.size());
     for_places(shape, [&](std::size_t out, std::size_t place) {
         sums.squares[place] = spread.squares[out];
+        sums.reached[place] = spread.reached[out];
         if (!sums.halves.cells.empty()) sums.halves.cells[place] = spread.halves.cells[out];
         if (!spread.stretched.empty()) sums.stretched[place] = spread.stretched[out];
+        if (!spread.exact.empty()) sums.exact[place] = spread.exact[out];
     });
     sums.bounces = spread.bounces;
     sums.albedo = spread.albedo;
+    sums.albedo_by_age = spread.albedo_by_age;
+    sums.groups = spread.groups;
     return sums;
 }
 

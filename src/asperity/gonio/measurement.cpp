@@ -18,8 +18,8 @@ int Measurement::orders() const {
 }
 
 SumShape Measurement::shape() const {
-    return {index(detector.cells()), index(detector.sides()), index(channels()), 1,
-            index(orders()),         index(bounces())};
+    return {index(detector.cells()), index(detector.sides()), index(channels()),        1,
+            index(orders()),         index(bounces()),        index(detector.columns())};
 }
 
 double Measurement::energy(const Layer& layer, int order, int channel, int cell) const {

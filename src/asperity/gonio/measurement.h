@@ -15,13 +15,17 @@ namespace asperity {
 /// What the errors of a layer come from, so that more batches can be added to it: sums of squares
 /// over batches, see LayerSums. Index order as in the Layer's arrays.
 struct LayerSpread {
-    BatchSet done;                           ///< the batches in the layer
-    std::uint64_t largest_batch = 0;         ///< rays
-    std::vector<LayerSums::Wide> squares;    ///< like stderr_energy; empty: not known
-    std::vector<std::uint64_t> stretched;    ///< likewise, or empty
-    std::vector<LayerSums::Spread> bounces;  ///< like escaped_by_bounce
-    std::vector<LayerSums::Spread> albedo;   ///< like stderr_albedo
-    LayerSums::Halves halves;                ///< like squares and albedo; empty for one surface
+    BatchSet done;                                 ///< the batches in the layer
+    std::uint64_t largest_batch = 0;               ///< rays
+    std::vector<LayerSums::Wide> squares;          ///< like stderr_energy; empty: not known
+    std::vector<std::uint64_t> stretched;          ///< likewise, or empty
+    std::vector<std::uint64_t> exact;              ///< likewise, or empty
+    std::vector<std::uint32_t> reached;            ///< likewise
+    std::vector<LayerSums::Spread> bounces;        ///< like escaped_by_bounce
+    std::vector<LayerSums::Spread> albedo;         ///< like stderr_albedo
+    std::vector<LayerSums::Spread> albedo_by_age;  ///< [age * values + value], see LayerSums
+    LayerSums::Halves halves;  ///< like squares and albedo; empty for one surface
+    GroupSums groups;
 };
 
 /// Light that left the surface for one incident direction, sorted by outgoing direction.

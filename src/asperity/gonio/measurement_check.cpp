@@ -51,12 +51,19 @@ bool sizes_fit(const Measurement& m, const Layer& layer) {
          (spread.stretched.empty() || spread.stretched.size() == places) &&
          (spread.halves.cells.empty()
               ? spread.halves.albedo.empty()
-              : spread.halves.cells.size() == places && spread.halves.albedo.size() == values));
+              : spread.halves.cells.size() == places && spread.halves.albedo.size() == values) &&
+         (spread.exact.empty() || spread.exact.size() == places));
+    const GroupSums groups(shape);
+    const bool groups_fit =
+        spread.reached.empty() || (spread.reached.size() == places &&
+                                   spread.albedo_by_age.size() == LayerSums::kAges * values &&
+                                   spread.groups.rays.size() == groups.rays.size() &&
+                                   spread.groups.energy.size() == groups.energy.size());
     return layer.energy.size() == shape.orders * places && layer.escaped.size() == values &&
            layer.absorbed.size() == channels && layer.truncated.size() == channels &&
            layer.edge.size() == channels && layer.escaped_by_bounce.size() == by_bounce &&
            layer.stderr_energy.size() == places && layer.stderr_albedo.size() == values &&
-           layer.stderr_albedo_by_bounce.size() == by_bounce && spread_fits;
+           layer.stderr_albedo_by_bounce.size() == by_bounce && spread_fits && groups_fit;
 }
 
 // Energy of a value on one side over all orders and cells.

@@ -19,8 +19,15 @@ std::uint64_t memory_needed(const Heightfield& surface, const Experiment& e) {
                               ? e.illumination.layers
                               : static_cast<double>(e.illumination.theta_deg.size());
     const double layers = angles * static_cast<double>(e.illumination.phi_deg.size());
-    // Energies by order, squares of their sum; of a layer also the errors
-    const double sums = cells * (orders * sizeof(std::uint64_t) + sizeof(LayerSums::Wide));
+    // Energies by order, squares of their sum, batches that reached a cell; sums by groups of
+    // batches; of a layer also the errors
+    const CoarseGrid grid({.cells = static_cast<std::size_t>(detector.cells()),
+                           .columns = static_cast<std::size_t>(detector.columns())});
+    const double groups = GroupSums::kGroups * static_cast<double>(grid.blocks()) *
+                          static_cast<double>(Fresnel(e.optics).channels());
+    const double sums =
+        cells * (orders * sizeof(std::uint64_t) + sizeof(LayerSums::Wide) + sizeof(std::uint32_t)) +
+        groups * sizeof(std::uint64_t);
     const double layer = sums + cells * sizeof(float);
     // The wide engine's heights and horizons
     constexpr double kBytesACell = 6;

@@ -16,12 +16,13 @@ TEST(MemoryNeed, CountsLayersChannelsOrdersAndTheSurface) {
     e.detector.resolution = 64;
     e.detector.orders = 4;
     e.run.engine = "plain";
-    // 2048 cells: 4 sums of 8 bytes, squares of 16, an error of 4; once more without the error
-    EXPECT_EQ(memory_needed(surface, e), 2048u * (6 * (32 + 16 + 4) + 32 + 16));
+    // 2048 cells: 4 sums of 8 bytes, squares of 16, a count and an error of 4, 16 sums by groups;
+    // once more without the error
+    EXPECT_EQ(memory_needed(surface, e), 2048u * (6 * (32 + 20 + 4 + 128) + 32 + 20 + 128));
     e.run.bounces = 2;
-    EXPECT_EQ(memory_needed(surface, e), 2048u * (6 * (16 + 16 + 4) + 16 + 16));
+    EXPECT_EQ(memory_needed(surface, e), 2048u * (6 * (16 + 20 + 4 + 128) + 16 + 20 + 128));
     e.optics = test::gold_like();
-    EXPECT_EQ(memory_needed(surface, e), 3 * 2048u * (6 * (16 + 16 + 4) + 16 + 16));
+    EXPECT_EQ(memory_needed(surface, e), 3 * 2048u * (6 * (16 + 20 + 4 + 128) + 16 + 20 + 128));
     const std::uint64_t without = memory_needed(surface, e);
     e.run.engine = "wide";
     EXPECT_EQ(memory_needed(surface, e), without + 6 * 100 * 100);
@@ -36,7 +37,7 @@ TEST(MemoryNeed, WhatNoMachineHasIsRefusedAtOnce) {
         ADD_FAILURE() << "was not refused";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::OutOfMemory);
-        EXPECT_NE(std::string(error.what()).find("the measurement: needs at least 15"),
+        EXPECT_NE(std::string(error.what()).find("the measurement: needs at least 16"),
                   std::string::npos)
             << error.what();
     }

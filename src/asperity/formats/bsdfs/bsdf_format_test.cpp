@@ -89,8 +89,9 @@ TEST(LayersCsv, HasALineACell) {
         1 + 2 * 32);
     // Cell 11 is row 1 of 4, column 3 of 8: a quarter of the energy over its projected solid angle.
     const double area = m->detector.projected_solid_angle(1);
-    EXPECT_NE(text.find(fmt::format("\n2,30,0,33.75,157.5,{:.6g},{:.7g},0\n", area, 0.25 / area)),
-              std::string::npos);
+    EXPECT_NE(
+        text.find(fmt::format("\n2,30,0,33.75,157.5,{:.6g},{:.7g},0,250\n", area, 0.25 / area)),
+        std::string::npos);
     EXPECT_NE(text.find("# checksum "), std::string::npos);
 }
 

@@ -17,10 +17,11 @@ std::string head_of(const ExportSource& source, const Measurement& m) {
     for (const std::string& line : source.provenance()) text += "# " + line + "\n";
     text +=
         "# degrees; theta_o and phi_o are the middles of cells; f in 1/sr without a cosine, "
-        "its standard error, the projected solid angle of the cell in sr\n"
+        "its standard error, the rays of full energy that it comes from (below 10 the error is a "
+        "rough one), the projected solid angle of the cell in sr\n"
         "layer,theta_i,phi_i,theta_o,phi_o,solid_angle";
     for (const std::string& channel : m.channel_names)
-        text += fmt::format(",f_{0},stderr_{0}", channel);
+        text += fmt::format(",f_{0},stderr_{0},rays_{0}", channel);
     return text + "\n";
 }
 
@@ -33,8 +34,9 @@ std::string rows_of(const Measurement& m, const Layer& layer) {
             degrees(layer.theta_i), degrees(layer.phi_i), degrees(m.detector.theta_centre(row)),
             degrees(m.detector.phi_centre(column)), m.detector.projected_solid_angle(row));
         for (int c = 0; c < m.channels(); ++c)
-            fmt::format_to(std::back_inserter(text), ",{:.7g},{:.3g}", m.brdf(layer, c, cell),
-                           m.brdf_stderr(layer, c, cell));
+            fmt::format_to(std::back_inserter(text), ",{:.7g},{:.3g},{:.3g}",
+                           m.brdf(layer, c, cell), m.brdf_stderr(layer, c, cell),
+                           m.energy(layer, c, cell) * static_cast<double>(layer.rays));
         text += '\n';
     }
     return text;

@@ -35,7 +35,8 @@ std::optional<Column> column_of(const std::string& text) {
         return Column::ThetaO;
     if (is({"phi_o", "phi_s", "phi_r", "phi_v", "phi_out", "phis", "scatter_azimuth"}))
         return Column::PhiO;
-    if (is({"layer", "solid_angle", "wavelength"}) || text.starts_with("stderr_"))
+    if (is({"layer", "solid_angle", "wavelength"}) || text.starts_with("stderr_") ||
+        text.starts_with("rays_"))
         return Column::Ignored;
     if (is({"f", "brdf", "bsdf", "r", "g", "b"}) || text.starts_with("f_")) return Column::Value;
     if (text.ends_with("nm") && parse_double(text.substr(0, text.size() - 2))) return Column::Value;

@@ -79,21 +79,21 @@ void ResultFields::add_spreads() {
     add_values<std::uint32_t>("sides", TensorType::U32, {1}, std::span(&one, 1));
     add_values<std::uint32_t>("elements", TensorType::U32, {1}, std::span(&one, 1));
     const std::vector<Layer>& layers = measurement_.layers;
-    if (!std::all_of(layers.begin(), layers.end(),
-                     [](const Layer& layer) { return !layer.spread.squares.empty(); }))
-        return;
+    const auto all_know = [&](auto LayerSpread::*member) {
+        return std::all_of(layers.begin(), layers.end(),
+                           [=](const Layer& layer) { return !(layer.spread.*member).empty(); });
+    };
+    if (!all_know(&LayerSpread::squares)) return;
     const std::uint64_t channels = extent(measurement_.channels());
     const std::uint64_t rows = extent(measurement_.detector.rows());
     const std::uint64_t columns = extent(measurement_.detector.columns());
 
     std::vector<std::uint64_t> largest, done;
-    bool stretched = false;
     for (std::size_t k = 0; k < layers.size(); ++k) {
         const LayerSpread& spread = layers[k].spread;
         largest.push_back(spread.largest_batch);
         for (const BatchRange& r : spread.done.ranges())
             done.insert(done.end(), {std::uint64_t{k}, r.begin, r.end});
-        stretched = stretched || !spread.stretched.empty();
     }
     add_values<std::uint64_t>("largest_batch", TensorType::U64, {largest.size()}, largest);
     add_values<std::uint64_t>("batches_done", TensorType::U64, {done.size() / 3, 3}, done);
@@ -103,21 +103,12 @@ void ResultFields::add_spreads() {
     for (const Layer& layer : layers)
         squares.parts.push_back(std::as_bytes(std::span(layer.spread.squares)));
     blocks_.push_back(std::move(squares));
-    if (stretched) {
-        TensorBlock block = {
-            "energy_stretched", TensorType::U64, {layers.size(), channels, rows, columns}, {}};
-        // A layer whose batches are all alike has nothing to add
-        const auto& none = store_.emplace_back(channels * rows * columns * sizeof(std::uint64_t));
-        for (const Layer& layer : layers)
-            block.parts.push_back(layer.spread.stretched.empty()
-                                      ? std::span<const std::byte>(none)
-                                      : std::as_bytes(std::span(layer.spread.stretched)));
-        blocks_.push_back(std::move(block));
-    }
+    add_where_needed("energy_stretched", &LayerSpread::stretched);
     add_wide("escaped_by_bounce_spread", {channels, extent(measurement_.bounces())},
              &LayerSpread::bounces);
     add_wide("escaped_spread", {channels}, &LayerSpread::albedo);
     add_halves();
+    if (all_know(&LayerSpread::reached)) add_groups();
 }
 
 void ResultFields::add_halves() {
@@ -139,6 +130,47 @@ void ResultFields::add_halves() {
     blocks_.push_back(std::move(all));
 }
 
+void ResultFields::add_where_needed(const char* name,
+                                    std::vector<std::uint64_t> LayerSpread::*member) {
+    const std::vector<Layer>& layers = measurement_.layers;
+    const auto has = [&](const Layer& layer) { return !(layer.spread.*member).empty(); };
+    if (std::none_of(layers.begin(), layers.end(), has)) return;
+    const std::uint64_t channels = extent(measurement_.channels());
+    const std::uint64_t rows = extent(measurement_.detector.rows());
+    const std::uint64_t columns = extent(measurement_.detector.columns());
+    TensorBlock block = {name, TensorType::U64, {layers.size(), channels, rows, columns}, {}};
+    // A layer that has nothing to add
+    const auto& none = store_.emplace_back(channels * rows * columns * sizeof(std::uint64_t));
+    for (const Layer& layer : layers)
+        block.parts.push_back(has(layer) ? std::as_bytes(std::span(layer.spread.*member))
+                                         : std::span<const std::byte>(none));
+    blocks_.push_back(std::move(block));
+}
+
+void ResultFields::add_groups() {
+    const std::vector<Layer>& layers = measurement_.layers;
+    const std::uint64_t channels = extent(measurement_.channels());
+    add_wide("escaped_spread_by_age", {LayerSums::kAges, channels}, &LayerSpread::albedo_by_age);
+    add_where_needed("energy_exact", &LayerSpread::exact);
+    const CoarseGrid grid(measurement_.shape());
+    TensorBlock reached = {"batches_reached",
+                           TensorType::U32,
+                           {layers.size(), channels, extent(measurement_.detector.rows()),
+                            extent(measurement_.detector.columns())},
+                           {}};
+    TensorBlock rays = {"group_rays", TensorType::U64, {layers.size(), GroupSums::kGroups}, {}};
+    TensorBlock energy = {"group_energy",
+                          TensorType::U64,
+                          {layers.size(), GroupSums::kGroups, grid.down, grid.across, channels},
+                          {}};
+    for (const Layer& layer : layers) {
+        reached.parts.push_back(std::as_bytes(std::span(layer.spread.reached)));
+        rays.parts.push_back(std::as_bytes(std::span(layer.spread.groups.rays)));
+        energy.parts.push_back(std::as_bytes(std::span(layer.spread.groups.energy)));
+    }
+    for (TensorBlock* block : {&reached, &rays, &energy}) blocks_.push_back(std::move(*block));
+}
+
 void ResultFields::add_wide(const char* name, std::vector<std::uint64_t> shape,
                             std::vector<LayerSums::Spread> LayerSpread::*member) {
     std::vector<std::uint64_t> words;
@@ -152,11 +184,13 @@ void ResultFields::add_wide(const char* name, std::vector<std::uint64_t> shape,
 }
 
 bool in_checksum(std::string_view name) {
-    constexpr std::array<std::string_view, 11> kLeftOut = {
+    constexpr std::array<std::string_view, 16> kLeftOut = {
         "provenance",       "sides",          "elements",
         "largest_batch",    "batches_done",   "energy_squares",
         "energy_stretched", "escaped_spread", "escaped_by_bounce_spread",
-        "energy_halves",    "escaped_halves"};
+        "energy_exact",     "group_rays",     "escaped_spread_by_age",
+        "batches_reached",  "group_energy",   "energy_halves",
+        "escaped_halves"};
     return std::find(kLeftOut.begin(), kLeftOut.end(), name) == kLeftOut.end();
 }
 

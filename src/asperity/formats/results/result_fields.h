@@ -51,6 +51,9 @@ class ResultFields {
     void add_spreads();
     /// What tells the noise of the rays from that of the surfaces, if there are several.
     void add_halves();
+    void add_groups();
+    /// An array that layers without it do not need; none if all are so.
+    void add_where_needed(const char* name, std::vector<std::uint64_t> LayerSpread::*member);
     void add_wide(const char* name, std::vector<std::uint64_t> shape,
                   std::vector<LayerSums::Spread> LayerSpread::*member);
     void add_checksums();

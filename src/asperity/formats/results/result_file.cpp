@@ -148,13 +148,37 @@ class ResultReader {
         read_wide("escaped_by_bounce_spread", {count, channels, extent(result_.bounces()), 3},
                   &LayerSpread::bounces);
         read_wide("escaped_spread", {count, channels, 3}, &LayerSpread::albedo);
-        if (file_.find("energy_halves") == nullptr) return;
+        if (file_.find("batches_reached") != nullptr) read_groups(cells);
+        if (file_.find("energy_halves") != nullptr) read_halves(cells);
+    }
+
+    void read_halves(const Shape& cells) {
         read_parts(
             "energy_halves", TensorType::U64, {cells[0], cells[1], cells[2], cells[3], 2},
             [](Layer & layer) -> auto& { return layer.spread.halves.cells; });
         read_parts(
-            "escaped_halves", TensorType::U64, {count, channels, 2},
+            "escaped_halves", TensorType::U64, {cells[0], cells[1], 2},
             [](Layer & layer) -> auto& { return layer.spread.halves.albedo; });
+    }
+
+    void read_groups(const Shape& cells) {
+        read_wide("escaped_spread_by_age", {cells[0], LayerSums::kAges, cells[1], 3},
+                  &LayerSpread::albedo_by_age);
+        if (file_.find("energy_exact") != nullptr)
+            read_parts(
+                "energy_exact", TensorType::U64, cells,
+                [](Layer & layer) -> auto& { return layer.spread.exact; });
+        read_parts(
+            "batches_reached", TensorType::U32, cells,
+            [](Layer & layer) -> auto& { return layer.spread.reached; });
+        const CoarseGrid grid(result_.shape());
+        read_parts(
+            "group_rays", TensorType::U64, {cells[0], GroupSums::kGroups},
+            [](Layer & layer) -> auto& { return layer.spread.groups.rays; });
+        read_parts(
+            "group_energy", TensorType::U64,
+            {cells[0], GroupSums::kGroups, grid.down, grid.across, cells[1]},
+            [](Layer & layer) -> auto& { return layer.spread.groups.energy; });
     }
 
     void read_done() {

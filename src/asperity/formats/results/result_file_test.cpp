@@ -68,10 +68,17 @@ void add_spread(const Measurement& m, Layer& layer, bool stretched, std::mt19937
     for (std::size_t k = 0; k < layer.stderr_energy.size(); ++k) {
         spread.squares.push_back(wide());
         if (stretched) spread.stretched.push_back(engine() | 1);
+        if (stretched) spread.exact.push_back(engine());
+        spread.reached.push_back(static_cast<std::uint32_t>(engine()));
     }
     for (std::size_t k = 0; k < layer.escaped_by_bounce.size(); ++k)
         spread.bounces.push_back({engine(), wide()});
     for (int c = 0; c < m.channels(); ++c) spread.albedo.push_back({engine(), wide()});
+    spread.albedo_by_age.resize(LayerSums::kAges * spread.albedo.size());
+    for (LayerSums::Spread& s : spread.albedo_by_age) s = {engine(), wide()};
+    spread.groups = GroupSums(m.shape());
+    for (auto* array : {&spread.groups.rays, &spread.groups.energy})
+        for (std::uint64_t& x : *array) x = engine();
 }
 
 Measurement small_measurement(unsigned seed = 1, int layers = 2) {
@@ -154,7 +161,9 @@ TEST(ResultFile, KeepsWhatTheErrorsComeFrom) {
             const LayerSpread &a = m.layers[k].spread, &b = read.layers[k].spread;
             EXPECT_EQ(a.largest_batch, b.largest_batch);
             EXPECT_TRUE(a.done == b.done && a.squares == b.squares && a.stretched == b.stretched &&
-                        a.bounces == b.bounces && a.albedo == b.albedo);
+                        a.bounces == b.bounces && a.albedo == b.albedo && a.exact == b.exact &&
+                        a.reached == b.reached && a.albedo_by_age == b.albedo_by_age &&
+                        a.groups == b.groups);
         }
         EXPECT_EQ(std::tie(read.part, read.parts, read.surface_digest, read.surface_cells),
                   std::tie(m.part, m.parts, m.surface_digest, m.surface_cells));
