@@ -17,10 +17,10 @@ namespace asperity {
 /// instead of fading one into another; f over what all layers share is blended (lobe_guide.h):
 /// where a layer is within 11 degrees of the normal and shows facets of alpha below 0.25, over
 /// D(wm) / (sigma(wi) sigma(wo)), which keeps lobes that are narrower than the cells; elsewhere f
-/// times both cosines, clamped away from zero. Where a layer's direction falls below the horizon the other layers count. A factor
-/// found for incident directions 1.5 degrees apart, less towards the horizon, then makes the albedo the blend of the layers'
-/// albedos. Light sent straight back (grooves) does not follow the mirror: between layers it may
-/// double.
+/// times both cosines, clamped away from zero. Where a layer's direction falls below the horizon
+/// the other layers count. A factor found for incident directions 1.5 degrees apart, less towards
+/// the horizon, then makes the albedo the blend of the layers' albedos. Light sent straight back
+/// (grooves) does not follow the mirror: between layers it may double.
 ///
 /// Within a layer: linear between the cells, the pole a node of its own, constant from the last
 /// row's middle to the horizon; peaks are kept as far as they stand out of the error bars.
