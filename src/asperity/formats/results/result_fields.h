@@ -5,6 +5,8 @@
 #include <asperity/formats/results/tensor_file.h>
 #include <asperity/gonio/measurement.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <span>
 #include <string>
@@ -19,11 +21,15 @@ bool in_checksum(std::string_view name);
 /// What stands for "format" there.
 Digest format_digest();
 
+/// Per channel and cell, over all orders; `size` is channels times cells.
+std::vector<std::uint64_t> energy_of_all_orders(const Layer& layer, std::size_t size);
+
 /// A Measurement as fields of a container: first those that depend on nothing but the experiment,
 /// then what more batches can be added to, "provenance" (how it was run), "field_checksums" (one
 /// row per field before it) and "checksum". docs/formats.md lists them all.
 ///
-/// The large arrays are not copied: the measurement must outlive this object.
+/// The large arrays are not copied (but one, which is told from two others): the measurement must
+/// outlive this object.
 class ResultFields {
   public:
     /// `packed`: large fields are to be stored packed, which takes some time.
@@ -51,6 +57,7 @@ class ResultFields {
     void add_spreads();
     /// What tells the noise of the rays from that of the surfaces, if there are several.
     void add_halves();
+    void add_energy_of_rays();
     void add_groups();
     /// An array that layers without it do not need; none if all are so.
     void add_where_needed(const char* name, std::vector<std::uint64_t> LayerSpread::*member);

@@ -164,10 +164,21 @@ class ResultReader {
     void read_groups(const Shape& cells) {
         read_wide("escaped_spread_by_age", {cells[0], LayerSums::kAges, cells[1], 3},
                   &LayerSpread::albedo_by_age);
-        if (file_.find("energy_exact") != nullptr)
+        if (file_.find("energy_of_rays") != nullptr) {
             read_parts(
-                "energy_exact", TensorType::U64, cells,
+                "energy_of_rays", TensorType::U64, cells,
                 [](Layer & layer) -> auto& { return layer.spread.exact; });
+            for (Layer& layer : result_.layers) {
+                std::vector<std::uint64_t>& exact = layer.spread.exact;
+                const auto all = energy_of_all_orders(layer, exact.size());
+                for (std::size_t k = 0; k < exact.size(); ++k) {
+                    if (exact[k] > all[k])
+                        file_.fail(file_.find("energy_of_rays")->offset,
+                                   "field 'energy_of_rays' is more than all of the energy");
+                    exact[k] = all[k] - exact[k];
+                }
+            }
+        }
         read_parts(
             "batches_reached", TensorType::U32, cells,
             [](Layer & layer) -> auto& { return layer.spread.reached; });

@@ -68,7 +68,7 @@ void add_spread(const Measurement& m, Layer& layer, bool stretched, std::mt19937
     for (std::size_t k = 0; k < layer.stderr_energy.size(); ++k) {
         spread.squares.push_back(wide());
         if (stretched) spread.stretched.push_back(engine() | 1);
-        if (stretched) spread.exact.push_back(engine());
+        if (stretched) spread.exact.push_back(layer.energy[k] / 3);
         spread.reached.push_back(static_cast<std::uint32_t>(engine()));
     }
     for (std::size_t k = 0; k < layer.escaped_by_bounce.size(); ++k)
