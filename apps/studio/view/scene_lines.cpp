@@ -51,7 +51,8 @@ void SceneLines::line(Vec3 a, Vec3 b, const Stroke& stroke) const {
     const std::optional<QPointF> from = view_.project(a), to = view_.project(b);
     if (!from || !to) return;
     const double length = QLineF(*from, *to).length();
-    const int pieces = std::clamp(static_cast<int>(length / kPieceLength) + 1, 1, kMostPieces);
+    // A point beside the eye lies further away on the screen than an int can say.
+    const auto pieces = static_cast<int>(std::min<double>(kMostPieces, 1 + length / kPieceLength));
     const bool even = stroke.from == stroke.to;
     // Without smooth edges lines are to be fast: one pixel wide, which is 0 here, and opaque, for
     // Qt shares the work on every single line it blends among threads, at a multiple of its cost.
