@@ -46,7 +46,7 @@ class LittleMemory(ProgramTest):
         # 9000 layers of 8192 x 4096 cells and 4 orders: no machine has that
         text = self.fails(5, "simulate", "--surface", "flat", "--size", 16, "--layers", 9000,
                           "--resolution", 8192, "--rays", 10, "-o", "r.asperity")
-        self.assertRegex(text, r"needs at least 157\d\d.\d GB of memory, \d+.* are free ")
+        self.assertRegex(text, r"needs at least 169\d\d.\d GB of memory, \d+.* are free ")
         self.assert_files()
 
 
