@@ -19,7 +19,7 @@
 #include <asperity/fit/verdict.h>
 #include <asperity/formats/bsdfs/bsdf_format.h>
 #include <asperity/formats/results/result_file.h>
-#include <asperity/pictures/residual_sheet.h>
+#include <shared/write_residuals.h>
 
 #include <fmt/format.h>
 
@@ -171,7 +171,7 @@ class FitVerb {
             write_json(json_of_report(report, data));
         else
             write_out(text_of_report(report, data) + (hint_.empty() ? "" : hint_ + "\n"));
-        if (png_->count() > 0) write_picture(report.fits.front(), data);
+        if (png_->count() > 0) write_residuals(data, report.fits.front(), text_of(png_));
         if (mtlx_->count() > 0) write_materialx(report);
         return 0;
     }
@@ -223,20 +223,6 @@ class FitVerb {
         }
         throw Error(ErrorCode::Usage, "needs ggx among the models: OpenPBR has no other facets",
                     "mtlx");
-    }
-
-    void write_picture(const Fit& fit, const FitData& data) const {
-        std::vector<io::ResidualTile> tiles;
-        for (std::size_t k = 0; k < data.layers.size(); ++k) {
-            const FitLayer& layer = data.layers[k];
-            tiles.push_back({layer.theta_i, layer.phi_i, over_cells(data, data.energy, layer),
-                             over_cells(data, fit.energy, layer),
-                             fmt::format("L1 {:.3g} %", 100 * fit.layers[k].l1)});
-        }
-        io::write_residual_sheet(
-            data.detector, tiles, fit.spec,
-            fmt::format("fitted to {}: L1 of f cos {:.3g} %", data.name, 100 * fit.mean_l1),
-            text_of(png_));
     }
 
     Json json_of_report(const FitReport& report, const FitData& data) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What nearly every source of the library includes, read once (ASPERITY_PRECOMPILE). Every source
-// still includes what it uses: the other builds, and clang in the tests, read no such file.
+// still includes what it uses: the other builds read no such file, nor does GCC for the library in
+// the tests, where its warnings are errors.
 #pragma once
 #include <fmt/format.h>
 #include <algorithm>

@@ -6,11 +6,8 @@
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
 #include <asperity/optics/optics_params.h>
-#include <asperity/pictures/residual_sheet.h>
 
 #include <QObject>
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -94,20 +91,6 @@ FitOutcome fit_brdf(const FitWish& wish, Run& run) {
     outcome.report = fit_models(*data, wish.settings, run);
     outcome.data = std::move(data);
     return outcome;
-}
-
-void write_residuals(const FitOutcome& outcome, const Fit& fit, const std::string& path) {
-    const FitData& data = *outcome.data;
-    std::vector<io::ResidualTile> tiles;
-    for (std::size_t k = 0; k < data.layers.size(); ++k) {
-        const FitLayer& layer = data.layers[k];
-        tiles.push_back({layer.theta_i, layer.phi_i, over_cells(data, data.energy, layer),
-                         over_cells(data, fit.energy, layer),
-                         fmt::format("L1 {:.3g} %", 100 * fit.layers[k].l1)});
-    }
-    io::write_residual_sheet(
-        data.detector, tiles, fit.spec,
-        fmt::format("fitted to {}: L1 of f cos {:.3g} %", data.name, 100 * fit.mean_l1), path);
 }
 
 void put_in_plots(StudioSettings& settings, const std::string& spec,

@@ -29,9 +29,6 @@ struct FitOutcome {
 /// Throws what opening, fit_data() and fit_models() throw; Error(Stopped).
 FitOutcome fit_brdf(const FitWish& wish, Run& run);
 
-/// A picture of a fit over its data. Throws what io::write_residual_sheet throws.
-void write_residuals(const FitOutcome& outcome, const Fit& fit, const std::string& path);
-
 /// Draws the model of a specification in the plots, with just its settings; the others keep the
 /// widths they have. `surface_alpha`: that of models that follow the surface.
 void put_in_plots(StudioSettings& settings, const std::string& spec,

@@ -6,6 +6,7 @@
 #include "main_window.h"
 #include "menus.h"
 #include "preferences.h"
+#include "show_dialog.h"
 
 #include <QCoreApplication>
 #include <QMenu>
@@ -83,8 +84,9 @@ void add_simulation_menu(MainWindow& window) {
     menu.addAction(tr("Stop BRDF"), &window,
                    [&document] { run_brdf(document, tr("Stop BRDF"), false); });
     menu.addSeparator();
-    QAction* fit = menu.addAction(tr("Fit Models..."), &window,
-                                  [&window] { show_fit_dialog(window.workbench(), window); });
+    QAction* fit = menu.addAction(tr("Fit Models..."), &window, [&window] {
+        show_dialog<FitDialog>(window.workbench(), window);
+    });
     fit->setShortcut(QKeySequence("Ctrl+F"));
     fit->setStatusTip(tr("The parameters with which models come nearest to a BRDF"));
     menu.addSeparator();

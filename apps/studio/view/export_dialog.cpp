@@ -233,12 +233,4 @@ void ExportDialog::fail(const QString& sentence) {
     emit exported();
 }
 
-void show_export_dialog(Workbench& workbench, QWidget& window) {
-    auto* dialog = window.findChild<ExportDialog*>();
-    if (dialog == nullptr) dialog = new ExportDialog(workbench, &window);
-    dialog->show();
-    dialog->raise();
-    dialog->activateWindow();
-}
-
 }  // namespace asperity::studio

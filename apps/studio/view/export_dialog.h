@@ -62,7 +62,4 @@ class ExportDialog : public QDialog {
     Background background_;
 };
 
-/// Shows the dialog of a window, made at the first call.
-void show_export_dialog(Workbench& workbench, QWidget& window);
-
 }  // namespace asperity::studio

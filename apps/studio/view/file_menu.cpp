@@ -8,6 +8,7 @@
 #include "plots_panel.h"
 #include "preferences.h"
 #include "save_bytes.h"
+#include "show_dialog.h"
 #include "surface_file_dialog.h"
 #include "surface_panel.h"
 #include "surface_scene.h"
@@ -91,7 +92,7 @@ void add_import_commands(MainWindow& window, QMenu& menu) {
     menu.addAction(tr("Open Surface File..."), &window,
                    [&window] { window.surface_panel().open_surface_file(); });
     menu.addAction(tr("Make Surface File Ready..."), &window,
-                   [&window] { show_surface_file_dialog(window.workbench(), window); })
+                   [&window] { show_dialog<SurfaceFileDialog>(window.workbench(), window); })
         ->setStatusTip(tr("Units, missing points, form, filters; before and after; figures"));
     QAction* load =
         menu.addAction(tr("Load Model..."), &window, [&window] { window.ask_for_model(); });
@@ -175,7 +176,7 @@ void add_file_menu(MainWindow& window) {
     add_import_commands(window, menu);
     menu.addAction(tr("Save Result..."), &window, [&window] { save_result(window); });
     QAction* export_brdf = menu.addAction(tr("Export BRDF..."), &window, [&window] {
-        show_export_dialog(window.workbench(), window);
+        show_dialog<ExportDialog>(window.workbench(), window);
     });
     export_brdf->setShortcut(QKeySequence("Ctrl+E"));
     export_brdf->setStatusTip(tr("For Mitsuba, Radiance, OpticStudio and others; read back"));

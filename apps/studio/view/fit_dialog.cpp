@@ -10,6 +10,8 @@
 
 #include <asperity/bsdf/bsdf_models.h>
 
+#include <shared/write_residuals.h>
+
 #include <QClipboard>
 #include <QFile>
 #include <QGuiApplication>
@@ -280,20 +282,13 @@ void FitDialog::save_residuals() {
     ask_file_to_save(this, tr("Save Residuals"), tr("PNG (*.png)"), "png",
                      [this, outcome = *outcome_, fit = *chosen()](const QString& path) {
                          try {
-                             write_residuals(outcome, fit, QFile::encodeName(path).toStdString());
+                             write_residuals(*outcome.data, fit,
+                                             QFile::encodeName(path).toStdString());
                              progress_->end(tr("%1 is written").arg(path));
                          } catch (const Error& error) {
                              progress_->end(QString::fromUtf8(error.what()), true);
                          }
                      });
-}
-
-void show_fit_dialog(Workbench& workbench, QWidget& window) {
-    auto* dialog = window.findChild<FitDialog*>();
-    if (dialog == nullptr) dialog = new FitDialog(workbench, &window);
-    dialog->show();
-    dialog->raise();
-    dialog->activateWindow();
 }
 
 }  // namespace asperity::studio

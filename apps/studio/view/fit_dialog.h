@@ -63,7 +63,4 @@ class FitDialog : public QDialog {
     Background background_;
 };
 
-/// Shows the dialog of a window, made at the first call.
-void show_fit_dialog(Workbench& workbench, QWidget& window);
-
 }  // namespace asperity::studio

@@ -9,6 +9,7 @@
 #include "file_surface_form.h"
 #include "param_control.h"
 #include "progress_row.h"
+#include "show_dialog.h"
 #include "surface_file_dialog.h"
 
 #include <asperity/surface/surface_kinds.h>
@@ -207,7 +208,7 @@ void SurfaceFields::add_file() {
            "and its figures"),
         is_file);
     connect(ready, &QPushButton::clicked, this,
-            [this] { show_surface_file_dialog(workbench_, *window()); });
+            [this] { show_dialog<SurfaceFileDialog>(workbench_, *window()); });
     add_file_note(is_file);
 }
 

@@ -209,12 +209,4 @@ void SurfaceFileDialog::show_report() {
     report_->verticalScrollBar()->setValue(place);
 }
 
-void show_surface_file_dialog(Workbench& workbench, QWidget& window) {
-    auto* dialog = window.findChild<SurfaceFileDialog*>();
-    if (dialog == nullptr) dialog = new SurfaceFileDialog(workbench, &window);
-    dialog->show();
-    dialog->raise();
-    dialog->activateWindow();
-}
-
 }  // namespace asperity::studio

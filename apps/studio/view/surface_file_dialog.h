@@ -44,7 +44,4 @@ class SurfaceFileDialog : public QDialog {
     QString refused_;  ///< what was typed last and is no value
 };
 
-/// Shows the dialog of a window, made at the first call.
-void show_surface_file_dialog(Workbench& workbench, QWidget& window);
-
 }  // namespace asperity::studio

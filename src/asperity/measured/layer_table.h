@@ -2,9 +2,9 @@
 #pragma once
 
 #include <asperity/gonio/measurement.h>
+#include <asperity/measured/cell_weights.h>
 
 #include <array>
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -37,30 +37,6 @@ class CellGrid {
     std::vector<double> theta_nodes_;  ///< of the rows
 };
 
-/// How a layer's lobe is shaped at the direction wo, within and across its cells.
-using LobeShape = std::function<double(Vec3 wo)>;
-
-/// The mean over each cell of an interpolation between nodes, times a shape.
-class CellWeights {
-  public:
-    /// Of the shape 1.
-    explicit CellWeights(const Detector& detector);
-    CellWeights(const Detector& detector, const LobeShape& shape);
-
-    double mean(const std::vector<double>& nodes, std::size_t row, std::size_t column) const;
-    /// Of the shape alone.
-    double mean_of_shape(std::size_t row, std::size_t column) const;
-
-  private:
-    using Nine = std::array<float, 9>;  ///< of the node and its neighbours, row by row
-    const Nine& of(std::size_t row, std::size_t column) const {
-        return weights_.size() == 1 ? weights_[0] : weights_[row * columns_ + column];
-    }
-
-    std::size_t rows_, columns_;
-    std::vector<Nine> weights_;  ///< of each cell, or of all alike
-};
-
 /// The BRDF of one layer of a measurement over a shape that is known beforehand (1, without): the
 /// quotient is interpolated, and sampled by its energy.
 ///
@@ -85,6 +61,9 @@ class LayerTable {
     double pdf(Vec3 wo) const;
 
   private:
+    /// The nodes of one channel, the pole not among them.
+    std::vector<double> nodes_of(const Measurement& measurement, const Layer& layer, int channel,
+                                 const CellWeights& weights) const;
     void build_distribution(const CellWeights& weights, const std::vector<double>& f);
 
     std::shared_ptr<const CellGrid> grid_;

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kFloor = 0.01;  // of the largest value of D
 constexpr double kBroad = 0.25;  // alpha from which on cells show all there is
-const double kSeen =
-    std::cos(radians(40));  // facets less tilted send light from above far enough up
+// Facets less tilted send light from above far enough up.
+const double kSeen = std::cos(radians(40));
 
 constexpr int kTilts = 90, kTurns = 72;  // where D is looked at for its integrals
 constexpr int kDistributionSide = 257, kSigmaSide = 49;

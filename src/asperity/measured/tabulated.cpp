@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace asperity {
 namespace {
@@ -93,6 +94,10 @@ double positive_azimuth(double phi) {
     throw Error(ErrorCode::InvalidInput, std::move(message), "measurement");
 }
 
+void check_stop(const Run& run) {
+    if (run.stop_requested()) throw Error(ErrorCode::Stopped, "stopped before the table was made");
+}
+
 /// See tabulated.h for what is interpolated how.
 class TabulatedBrdf final : public Bsdf {
   public:
@@ -115,7 +120,7 @@ class TabulatedBrdf final : public Bsdf {
     };
     using Corners = std::array<Corner, 4>;
 
-    void read_layers(const Measurement& measurement);
+    void read_layers(const Measurement& measurement, const Run& run);
     void normalise(const Run& run);
     Corners corners(double theta_i, double phi_i) const;
     double turn_of(Vec3 wi) const;
@@ -137,11 +142,11 @@ TabulatedBrdf::TabulatedBrdf(const Measurement& measurement, const Run& run)
     : channels_(measurement.channels()),
       name_("tabulated:" + (measurement.surface_name.empty() ? std::string("measurement")
                                                              : measurement.surface_name)) {
-    read_layers(measurement);
+    read_layers(measurement, run);
     normalise(run);
 }
 
-void TabulatedBrdf::read_layers(const Measurement& measurement) {
+void TabulatedBrdf::read_layers(const Measurement& measurement, const Run& run) {
     if (measurement.layers.empty()) reject("has no layers");
     if (channels_ < 1 || channels_ > kMaxBsdfChannels)
         reject(
@@ -172,21 +177,26 @@ void TabulatedBrdf::read_layers(const Measurement& measurement) {
         guide_ = LobeGuide(LayerTable(grid, measurement, steepest),
                            from_spherical(thetas_.front(), phis_.front()));
     }
+    std::vector<const Layer*> layers;
     for (const double theta : thetas_)
-        for (const double phi : phis_) {
-            const Vec3 wi = from_spherical(theta, phi);
-            const LobeShape shape = [&, wi](Vec3 wo) { return guide_(wi, wo, wi + wo); };
-            tables_.emplace_back(grid, measurement, layer_at(theta, phi),
-                                 guide_.is_known() ? shape : nullptr);
-        }
+        for (const double phi : phis_) layers.push_back(&layer_at(theta, phi));
+    std::vector<std::optional<LayerTable>> tables(layers.size());
+    parallel_for(layers.size(), run.threads(), [&](std::size_t k) {
+        if (!run.keep_going()) return;
+        const Vec3 wi = from_spherical(thetas_[k / phis_.size()], phis_[k % phis_.size()]);
+        const LobeShape shape = [&](Vec3 wo) { return guide_(wi, wo, wi + wo); };
+        tables[k].emplace(grid, measurement, *layers[k], guide_.is_known() ? shape : nullptr);
+    });
+    check_stop(run);
+    for (std::optional<LayerTable>& table : tables) tables_.push_back(*std::move(table));
 }
 
 /// The blend of two lobes keeps neither's energy exactly. At incident directions close enough
 /// together, find by how much it misses, while the corrections are still empty.
 void TabulatedBrdf::normalise(const Run& run) {
     // With a second dimension to cover, coarser steps keep the cost of it within seconds.
-    const FibonacciLattice lattice =
-        relative_ ? (guide_.is_known() ? kFineLattice : kMediumLattice) : kCoarseLattice;
+    FibonacciLattice lattice = kCoarseLattice;
+    if (relative_) lattice = guide_.is_known() ? kFineLattice : kMediumLattice;
     std::vector<double> theta_nodes = refine(thetas_, 0, 0.5 * kPi, radians(relative_ ? 1.5 : 3));
     if (relative_) {  // towards the horizon, where most changes
         for (double deg = 78; deg < 90; deg += deg < 87 ? 0.5 : 0.25)
@@ -217,7 +227,7 @@ void TabulatedBrdf::normalise(const Run& run) {
         for (std::size_t c = 0; c < channels; ++c)
             if (present[c] > 0) corrections[k * channels + c] = wanted[c] / present[c];
     });
-    if (run.stop_requested()) throw Error(ErrorCode::Stopped, "stopped before the table was made");
+    check_stop(run);
     theta_nodes_ = std::move(theta_nodes);
     phi_nodes_ = std::move(phi_nodes);
     corrections_ = std::move(corrections);

@@ -253,10 +253,10 @@ TEST(MakeSurface, StopsWhenAsked) {
 // Sanitizers take terabytes of address space for themselves.
 #ifdef __has_feature  // Clang
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define ASPERITY_ANY_ADDRESS
+#define ASPERITY_CLANG_SANITIZES
 #endif
 #endif
-#if !defined(ASPERITY_ANY_ADDRESS) && !defined(__SANITIZE_ADDRESS__) && \
+#if !defined(ASPERITY_CLANG_SANITIZES) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 TEST(MakeSurface, SaysWhenMemoryIsShort) {
     // Address space for this process ends 2 GiB from nothing: 32768^2 heights need 4
