@@ -7,7 +7,7 @@ import unittest
 from check_links import check, read_graph
 
 RIGHT = [
-    "asperity_core src/asperity/core TBB::tbb;$<BUILD_INTERFACE:asperity_flags>",
+    "asperity_core src/asperity/core Threads::Threads;$<BUILD_INTERFACE:asperity_flags>",
     "asperity_surface src/asperity/surface asperity_core;$<LINK_ONLY:Eigen3::Eigen>",
     "asperity_gonio src/asperity/gonio asperity_surface",
     "asperity_bsdf src/asperity/bsdf asperity_surface;fmt::fmt",
