@@ -127,7 +127,7 @@ void PlotsPanelTest::show_kind(PlotKind kind, io::Scale scale) {
         s.plots.kind = kind;
         s.plots.scale = scale;
     });
-    QTest::qWait(250);  // plots follow each other ten times a second
+    QTRY_VERIFY(panel_->is_up_to_date());
 }
 
 const Layer& PlotsPanelTest::layer() {
@@ -172,7 +172,7 @@ void PlotsPanelTest::csv_holds_the_librarys_numbers() {
 void PlotsPanelTest::albedo_csv_adds_up() {
     show_kind(PlotKind::Albedo);
     bench_.document().change("models", [](StudioSettings& s) { s.plots.overlays.clear(); });
-    QTest::qWait(250);
+    QTRY_VERIFY(panel_->is_up_to_date());
     const auto rows = rows_of_csv(saved("albedo.csv"));
     QCOMPARE(rows.size(), qsizetype(4));  // three layers
     for (qsizetype k = 1; k < rows.size(); ++k) {

@@ -4,6 +4,7 @@
 
 #include "view/preferences.h"
 
+#include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
 #include <QFile>
@@ -12,6 +13,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 
+#include <functional>
 #include <memory>
 
 namespace asperity::studio::testing {
@@ -35,6 +37,8 @@ class WindowTest : public QObject {
     void damaged_session_is_complained_of();
     void asks_before_a_change_is_lost();
     void closes_at_once_while_drawing();
+    void layout_goes_back_to_the_first();
+    void presentation_gives_the_layout_back();
 
   private:
     /// A drawing that takes minutes.
@@ -163,6 +167,54 @@ void WindowTest::closes_at_once_while_drawing() {
     window_->close();
     window_.reset();
     QVERIFY2(clock.elapsed() < 1000, qPrintable(QString::number(clock.elapsed())));
+}
+
+void WindowTest::layout_goes_back_to_the_first() {
+    auto& menu = window_->control<QDockWidget>("menu-dock");
+    auto& plots = window_->control<QDockWidget>("plots-dock");
+    auto& log = window_->control<QDockWidget>("log-dock");
+    const auto places = [&] { return QList<QRect>{menu.geometry(), plots.geometry()}; };
+    const auto first = [&] {
+        window_->reset_layout();
+        QTest::qWait(50);
+        return places();
+    }();
+    const std::function<void()> upsets[] = {
+        [&] { menu.setFloating(true); },
+        [&] { window_->addDockWidget(Qt::RightDockWidgetArea, &menu); },
+        [&] { window_->tabifyDockWidget(&menu, &plots), log.raise(); },
+        [&] { window_->splitDockWidget(&log, &menu, Qt::Vertical); },
+        [&] { menu.hide(), plots.hide(), log.hide(); },
+    };
+    for (const auto& upset : upsets) {
+        upset();
+        QTest::qWait(50);
+        QVERIFY(places() != first || !menu.isVisible());
+        window_->reset_layout();
+        QTest::qWait(50);
+        QCOMPARE(places(), first);
+        QVERIFY(menu.isVisible() && !menu.isFloating());
+        QVERIFY(!plots.visibleRegion().isEmpty() && !log.isHidden());
+        QCOMPARE(window_->tabifiedDockWidgets(&plots), QList<QDockWidget*>{&log});
+    }
+}
+
+void WindowTest::presentation_gives_the_layout_back() {
+    auto& menu = window_->control<QDockWidget>("menu-dock");
+    auto& plots = window_->control<QDockWidget>("plots-dock");
+    auto& log = window_->control<QDockWidget>("log-dock");
+    menu.hide();
+    log.raise();
+    QTest::qWait(50);
+    const QRect place = log.geometry();
+    window_->set_presenting(true);
+    QTest::qWait(50);
+    QVERIFY(!plots.isVisible() && !log.isVisible());
+    window_->set_presenting(false);
+    QTest::qWait(50);
+    QVERIFY(menu.isHidden() && !plots.isHidden());
+    QVERIFY(!log.visibleRegion().isEmpty() && plots.visibleRegion().isEmpty());
+    QCOMPARE(log.geometry(), place);
 }
 
 }  // namespace asperity::studio::testing

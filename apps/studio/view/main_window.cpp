@@ -35,12 +35,11 @@ namespace {
 
 constexpr int kComplaintMs = 20000;
 
-QDockWidget* add_dock(QMainWindow& window, const QString& title, const char* name, QWidget* content,
-                      Qt::DockWidgetArea area) {
+QDockWidget* make_dock(QMainWindow& window, const QString& title, const char* name,
+                       QWidget* content) {
     auto* dock = new QDockWidget(title, &window);
     dock->setObjectName(name);
     dock->setWidget(content);
-    window.addDockWidget(area, dock);
     return dock;
 }
 
@@ -55,8 +54,8 @@ struct MainWindow::Parts {
     MenuPanel* menu = nullptr;
     Tour* tour = nullptr;
     QStackedWidget* scenes = nullptr;
-    QList<QDockWidget*> docks;               ///< Menu, Plots, Log
-    QByteArray first_layout, layout_before;  ///< the latter: of a presentation
+    QList<QDockWidget*> docks;    ///< Menu, Plots, Log
+    QList<QDockWidget*> offered;  ///< of these, while presenting: what was shown before
 };
 
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), parts_(std::make_unique<Parts>()) {
@@ -100,7 +99,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), parts_(std::make_
     show_title();
 
     resize(1600, 940);
-    parts_->first_layout = saveState();
+    reset_layout();
     restoreGeometry(preferences::window_geometry());
     restoreState(preferences::window_layout());
 }
@@ -118,19 +117,10 @@ void MainWindow::make_docks() {
     setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
     setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
-    QDockWidget* menu =
-        add_dock(*this, tr("Menu"), "menu-dock", parts_->menu, Qt::LeftDockWidgetArea);
-    QDockWidget* plots =
-        add_dock(*this, tr("Plots"), "plots-dock", parts_->plots, Qt::RightDockWidgetArea);
-    QDockWidget* log =
-        add_dock(*this, tr("Log"), "log-dock", new LogView(workbench()), Qt::RightDockWidgetArea);
-    parts_->docks = {menu, plots, log};
-    const QFontMetrics letters = fontMetrics();
-    tabifyDockWidget(plots, log);
     setTabPosition(Qt::RightDockWidgetArea, QTabWidget::North);
-    plots->raise();
-    resizeDocks({menu, plots}, {40 * letters.averageCharWidth(), 52 * letters.averageCharWidth()},
-                Qt::Horizontal);
+    parts_->docks = {make_dock(*this, tr("Menu"), "menu-dock", parts_->menu),
+                     make_dock(*this, tr("Plots"), "plots-dock", parts_->plots),
+                     make_dock(*this, tr("Log"), "log-dock", new LogView(workbench()))};
 }
 
 Workbench& MainWindow::workbench() {
@@ -230,11 +220,22 @@ void MainWindow::set_presenting(bool presenting) {
     constexpr double kLarge = 1.9;
     QFont letters = font();
     if (presenting) {
-        parts_->layout_before = saveState();
+        parts_->offered.clear();
+        for (QDockWidget* dock : parts_->docks) {
+            // The last one seen comes last, and so in front of those that share its place
+            if (dock->isHidden()) continue;
+            if (dock->visibleRegion().isEmpty())
+                parts_->offered.prepend(dock);
+            else
+                parts_->offered.append(dock);
+        }
         for (QDockWidget* dock : parts_->docks) dock->hide();
         letters.setPointSizeF(kLarge * letters.pointSizeF());
     } else {
-        restoreState(parts_->layout_before);
+        for (QDockWidget* dock : parts_->offered) {
+            dock->show();
+            dock->raise();
+        }
     }
     menuBar()->setVisible(!presenting);
     statusBar()->setVisible(!presenting);
@@ -252,8 +253,21 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
         QMainWindow::keyPressEvent(event);
 }
 
+// Place by place and not by restoreState(): in a window that is shown Qt 6.4 then walks over its
+// own list of tab bars while showing them changes it
 void MainWindow::reset_layout() {
-    restoreState(parts_->first_layout);
+    QDockWidget* const menu = parts_->docks.at(0);
+    QDockWidget* const plots = parts_->docks.at(1);
+    QDockWidget* const log = parts_->docks.at(2);
+    for (QDockWidget* dock : parts_->docks) {
+        dock->setFloating(false);
+        addDockWidget(dock == menu ? Qt::LeftDockWidgetArea : Qt::RightDockWidgetArea, dock);
+        dock->show();
+    }
+    tabifyDockWidget(plots, log);
+    plots->raise();
+    const int letter = fontMetrics().averageCharWidth();
+    resizeDocks({menu, plots}, {40 * letter, 52 * letter}, Qt::Horizontal);
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

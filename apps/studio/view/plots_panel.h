@@ -22,6 +22,8 @@ class PlotsPanel : public QWidget {
   public:
     explicit PlotsPanel(Workbench& workbench, QWidget* parent = nullptr);
 
+    /// Whether what is shown follows the latest change; a plot comes a moment after it.
+    bool is_up_to_date() const { return !timer_.isActive(); }
     /// The plot shown, at `size`, in the colours of the program.
     QImage picture(QSize size) const;
     /// Black on white, for print.
