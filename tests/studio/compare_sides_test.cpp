@@ -105,7 +105,7 @@ void CompareSidesTest::what_one_side_lacks_is_said() {
     compare(bench);
     bench.complaints.clear();
     bench.change([](ModelView& view) { view.second.result = "nowhere.asperity"; });
-    QTRY_VERIFY(bench.scene.stage().message().startsWith("nowhere.asperity"));
+    QTRY_VERIFY_WITH_TIMEOUT(bench.scene.stage().message().startsWith("nowhere.asperity"), 60000);
     QVERIFY(bench.scene.stage().left_name().startsWith("Simulated, "));
     QCOMPARE(bench.complaints.size(), 1);
     // The other side may change; it is not said again

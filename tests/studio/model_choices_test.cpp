@@ -310,13 +310,13 @@ void ModelChoicesTest::a_model_of_a_program_is_drawn_beside_layers() {
     panel.findChild<QCheckBox*>("show-velvet")->setChecked(true);
     panel.findChild<QDoubleSpinBox*>("velvet-alpha")->setValue(0.25);
     const QString column = "Velvet α = 0.25: f [1/sr]";
-    QTRY_VERIFY_WITH_TIMEOUT(header(panel, PlotKind::LobeCartesian).contains(column), 10000);
+    QTRY_VERIFY_WITH_TIMEOUT(header(panel, PlotKind::LobeCartesian).contains(column), 60000);
     QTRY_VERIFY_WITH_TIMEOUT(
         header(panel, PlotKind::Albedo).contains("Velvet α = 0.25: albedo [1]"), 60000);
     panel.findChild<QCheckBox*>("show-student-t")->setChecked(true);
     // It has no facets; Student's t has.
     QTRY_VERIFY_WITH_TIMEOUT(
-        header(panel, PlotKind::Normals).contains("Student-T α = 0.3: D [1/sr]"), 10000);
+        header(panel, PlotKind::Normals).contains("Student-T α = 0.3: D [1/sr]"), 60000);
     for (const QString& name : header(panel, PlotKind::Normals)) QVERIFY(!name.contains("Velvet"));
 
     // The numbers are those of the model, p = 4, one channel beside three: the cosine-weighted mean
@@ -361,7 +361,7 @@ void ModelChoicesTest::further_settings_of_an_overlay() {
     QVERIFY(panel.findChild<QWidget*>("plot-student-t-alpha") == nullptr);  // the slider's
     gamma->setValue(2);
     const QString column = "Student-T α = 0.5; gamma = 2: f [1/sr]";
-    QTRY_VERIFY_WITH_TIMEOUT(header(panel, PlotKind::LobeCartesian).contains(column), 10000);
+    QTRY_VERIFY_WITH_TIMEOUT(header(panel, PlotKind::LobeCartesian).contains(column), 60000);
     QFile file(folder_.filePath("plot.csv"));
     QVERIFY(file.open(QIODevice::ReadOnly));
     const qsizetype k = QString::fromUtf8(file.readLine()).trimmed().split(',').indexOf(column);

@@ -108,21 +108,23 @@ void ModelSceneTest::a_model_is_loaded_and_seen() {
     QCOMPARE(bench.scene.statistics(), ModelStatistics{});
     QSignalSpy ready(&bench.scene, &ModelScene::model_ready);
     bench.scene.load("sphere");
-    QTRY_COMPARE(ready.count(), 1);
+    QTRY_COMPARE_WITH_TIMEOUT(ready.count(), 1, 60000);
     QVERIFY(bench.scene.has_model());
     QCOMPARE(bench.scene.statistics().unique_triangles, 2ull * 512 * 255);
     QVERIFY(bench.workbench.settings().scene == SceneKind::Model);
-    QTRY_VERIFY(bench.scene.is_settled());
+    QTRY_VERIFY_WITH_TIMEOUT(bench.scene.is_settled(), 60000);
     const QImage shown = bench.scene.viewport().grab_picture();
-    QTRY_COMPARE(bench.scene.viewport().grab_picture().pixelColor(160, 120), QColor(Qt::black));
+    QTRY_COMPARE_WITH_TIMEOUT(bench.scene.viewport().grab_picture().pixelColor(160, 120),
+                              QColor(Qt::black), 60000);
 
     bench.change([](ModelView& view) { view.brdf_runs = true; });
-    QTRY_VERIFY(bench.scene.viewport().grab_picture().pixelColor(160, 120).lightness() > 60);
+    QTRY_VERIFY_WITH_TIMEOUT(
+        bench.scene.viewport().grab_picture().pixelColor(160, 120).lightness() > 60, 60000);
     auto* models = bench.find<QComboBox>("model-name");
     QCOMPARE(models->currentText(), QString("sphere"));
     models->setCurrentText("knot");
     emit models->activated(models->currentIndex());
-    QTRY_VERIFY(bench.scene.stage().model().name() == "knot");
+    QTRY_VERIFY_WITH_TIMEOUT(bench.scene.stage().model().name() == "knot", 60000);
 }
 
 void ModelSceneTest::a_bad_file_leaves_the_model() {
@@ -138,13 +140,13 @@ void ModelSceneTest::a_bad_file_leaves_the_model() {
     }
     QVERIFY(!cli.empty());
     bench.scene.load(path("bad.obj"));
-    QTRY_COMPARE(bench.complaints, QStringList{QString::fromStdString(cli)});
+    QTRY_COMPARE_WITH_TIMEOUT(bench.complaints, QStringList{QString::fromStdString(cli)}, 60000);
     QCOMPARE(bench.scene.stage().model().traced(), before);
     QCOMPARE(view_of(bench).model, std::string("sphere"));
     QVERIFY(bench.scene.stage().message().isEmpty());
 
     bench.scene.load("no-such-model");
-    QTRY_COMPARE(bench.complaints.size(), 2);
+    QTRY_COMPARE_WITH_TIMEOUT(bench.complaints.size(), 2, 60000);
     QVERIFY(bench.complaints.last().contains("knot"));
 }
 
@@ -166,7 +168,7 @@ void ModelSceneTest::nothing_drawn_is_said() {
     QCOMPARE(bench.complaints.size(), 2);
 
     bench.change([&](ModelView& view) { view.brdf.result = "nowhere.asperity"; });
-    QTRY_COMPARE(bench.complaints.size(), 3);
+    QTRY_COMPARE_WITH_TIMEOUT(bench.complaints.size(), 3, 60000);
     QVERIFY(bench.complaints.last().startsWith("nowhere.asperity: "));
 }
 
@@ -205,7 +207,7 @@ void ModelSceneTest::files_can_be_dropped() {
     write(path("notes.txt"), "nothing to be seen");
     Bench bench;
     drop(bench.scene, path("one.obj"));
-    QTRY_COMPARE(bench.scene.statistics().unique_triangles, 1ull);
+    QTRY_COMPARE_WITH_TIMEOUT(bench.scene.statistics().unique_triangles, 1ull, 60000);
     bench.change([](ModelView& view) { view.brdf_runs = true; });
 
     drop(bench.scene, path("small.asperity"));
@@ -214,7 +216,7 @@ void ModelSceneTest::files_can_be_dropped() {
 
     drop(bench.scene, path("grey.exr"));
     QVERIFY(view_of(bench).light == LightKind::Environment);
-    QTRY_VERIFY(!bench.scene.stage().sight()->backdrop);
+    QTRY_VERIFY_WITH_TIMEOUT(!bench.scene.stage().sight()->backdrop, 60000);
     const Rgb behind = paint(bench.scene).at(1, 1).mean;
     QVERIFY(std::abs(behind.g - 0.5) < 1e-6);
 
@@ -292,7 +294,7 @@ void ModelSceneTest::camera_type_is_a_setting() {
     bench.change([](ModelView& view) { view.camera_type = CameraType::FirstPerson; });
     const Vec3 before = bench.scene.viewport().camera().position;
     QTest::keyPress(&bench.scene.viewport(), Qt::Key_W);
-    QTRY_VERIFY(!(bench.scene.viewport().camera().position == before));
+    QTRY_VERIFY_WITH_TIMEOUT(!(bench.scene.viewport().camera().position == before), 60000);
     QTest::keyRelease(&bench.scene.viewport(), Qt::Key_W);
 }
 

@@ -42,7 +42,7 @@ struct Bench {
     /// Loads a model and starts the BRDF.
     void begin(const char* model = "sphere") {
         scene.load(model);
-        QTRY_VERIFY_WITH_TIMEOUT(scene.has_model(), 10000);
+        QTRY_VERIFY_WITH_TIMEOUT(scene.has_model(), 60000);
         change([](ModelView& view) { view.brdf_runs = true; });
     }
 

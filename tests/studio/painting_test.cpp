@@ -116,7 +116,7 @@ void PaintingTest::latest_wish_wins() {
     painter.paint(plain(Qt::black, 1ms), {40, 100}, true);
     for (int k = 0; k < 20; ++k) painter.paint(plain(Qt::red, 1ms), {40, 100}, true);
     painter.paint(plain(Qt::green), {40, 20}, false);
-    QTRY_VERIFY(!frames.empty() && !frames.back().moving);
+    QTRY_VERIFY_WITH_TIMEOUT(!frames.empty() && !frames.back().moving, 60000);
     QTest::qWait(50);
     // The frame under way, if there was one, and the last: none of those in between.
     QVERIFY(frames.size() <= 2);
@@ -132,7 +132,7 @@ void PaintingTest::moving_pictures_shrink() {
     // Half a millisecond a row: a full picture would take 0.2 s.
     for (std::size_t k = 0; k < 8; ++k) {
         painter.paint(plain(Qt::red, 500us), full, true);
-        QTRY_VERIFY(frames.size() == k + 1);
+        QTRY_VERIFY_WITH_TIMEOUT(frames.size() == k + 1, 60000);
         QCOMPARE(frames.back().full, full);
         QVERIFY(frames.back().moving);
         QVERIFY(frames.back().image.width() < full.width());
@@ -142,7 +142,7 @@ void PaintingTest::moving_pictures_shrink() {
     QVERIFY(painter.milliseconds_per_frame() > 5);
     QVERIFY(painter.frames_per_second() > 1);
     painter.paint(plain(Qt::red), full, false);
-    QTRY_COMPARE(frames.back().image.size(), full);
+    QTRY_COMPARE_WITH_TIMEOUT(frames.back().image.size(), full, 60000);
 }
 
 void PaintingTest::still_pictures_refine() {
@@ -150,7 +150,7 @@ void PaintingTest::still_pictures_refine() {
     std::vector<Frame> frames;
     keep_frames(painter, frames);
     painter.paint(plain(Qt::blue, 200us, 4), {64, 64}, false);
-    QTRY_VERIFY(!frames.empty() && frames.back().passes == 4);
+    QTRY_VERIFY_WITH_TIMEOUT(!frames.empty() && frames.back().passes == 4, 60000);
     QTest::qWait(50);
     QCOMPARE(frames.back().passes, 4);
     for (const Frame& frame : frames) QCOMPARE(frame.image.size(), QSize(64, 64));
@@ -166,7 +166,7 @@ void PaintingTest::moving_breaks_off_a_still_picture() {
     QElapsedTimer clock;
     clock.start();
     painter.paint(plain(Qt::red), {100, 100}, true);
-    QTRY_VERIFY(!frames.empty());
+    QTRY_VERIFY_WITH_TIMEOUT(!frames.empty(), 60000);
     QVERIFY(clock.elapsed() < 1000);
     QCOMPARE(frames.front().image.pixelColor(1, 1), QColor(Qt::red));
 }
@@ -189,13 +189,13 @@ void PaintingTest::stop_keeps_silent() {
     std::vector<Frame> frames;
     keep_frames(painter, frames);
     painter.paint(plain(Qt::blue, 1ms, 1000), {50, 50}, false);
-    QTRY_VERIFY(!frames.empty());
+    QTRY_VERIFY_WITH_TIMEOUT(!frames.empty(), 60000);
     painter.stop();
     const std::size_t count = frames.size();
     QTest::qWait(150);
     QCOMPARE(frames.size(), count);
     painter.paint(plain(Qt::red), {50, 50}, false);
-    QTRY_COMPARE(frames.size(), count + 1);
+    QTRY_COMPARE_WITH_TIMEOUT(frames.size(), count + 1, 60000);
 }
 
 void PaintingTest::failures_are_told() {
@@ -205,10 +205,10 @@ void PaintingTest::failures_are_told() {
     keep_frames(painter, frames);
     painter.paint([](QSize) -> std::unique_ptr<Painting> { throw std::runtime_error("no paint"); },
                   {10, 10}, false);
-    QTRY_COMPARE(failed.count(), 1);
+    QTRY_COMPARE_WITH_TIMEOUT(failed.count(), 1, 60000);
     QCOMPARE(failed[0][0].toString(), QString("no paint"));
     painter.paint(plain(Qt::red), {10, 10}, false);
-    QTRY_COMPARE(frames.size(), std::size_t{1});
+    QTRY_COMPARE_WITH_TIMEOUT(frames.size(), std::size_t{1}, 60000);
 }
 
 void PaintingTest::destructor_is_quick() {

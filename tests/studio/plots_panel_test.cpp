@@ -127,7 +127,7 @@ void PlotsPanelTest::show_kind(PlotKind kind, io::Scale scale) {
         s.plots.kind = kind;
         s.plots.scale = scale;
     });
-    QTRY_VERIFY(panel_->is_up_to_date());
+    QTRY_VERIFY_WITH_TIMEOUT(panel_->is_up_to_date(), 60000);
 }
 
 const Layer& PlotsPanelTest::layer() {
@@ -172,7 +172,7 @@ void PlotsPanelTest::csv_holds_the_librarys_numbers() {
 void PlotsPanelTest::albedo_csv_adds_up() {
     show_kind(PlotKind::Albedo);
     bench_.document().change("models", [](StudioSettings& s) { s.plots.overlays.clear(); });
-    QTRY_VERIFY(panel_->is_up_to_date());
+    QTRY_VERIFY_WITH_TIMEOUT(panel_->is_up_to_date(), 60000);
     const auto rows = rows_of_csv(saved("albedo.csv"));
     QCOMPARE(rows.size(), qsizetype(4));  // three layers
     for (qsizetype k = 1; k < rows.size(); ++k) {
@@ -271,7 +271,7 @@ void PlotsPanelTest::read_out_shows_the_layer() {
     show_kind(PlotKind::LobeCartesian);
     const auto* label = panel_->findChild<QLabel*>("plot-read-out");
     QTest::mouseMove(canvas_, QPoint(canvas_->width() * 7 / 10, canvas_->height() / 2));
-    QTRY_VERIFY(label->text().contains("Simulated"));
+    QTRY_VERIFY_WITH_TIMEOUT(label->text().contains("Simulated"), 60000);
     const LobeSlice slice = lobe_slice(*bench_.drawing().layers().head, layer(), -1);
     const auto shown =
         std::find_if(slice.samples.begin(), slice.samples.end(), [&](const LobeSample& sample) {
@@ -351,12 +351,12 @@ void PlotsPanelTest::models_follow_the_surface_or_the_slider() {
             for (const QStringList& row : rows) column << row[k];
         return column;
     };
-    QTRY_VERIFY_WITH_TIMEOUT(!model_column(of_surface).isEmpty(), 10000);
+    QTRY_VERIFY_WITH_TIMEOUT(!model_column(of_surface).isEmpty(), 60000);
     follow->setChecked(false);
     QVERIFY(alpha->isEnabled());
     slider->setValue(slider->maximum() / 4);
     QCOMPARE(bench_.settings().plots.overlay("ggx").alpha, 0.5);
-    QTRY_VERIFY_WITH_TIMEOUT(!model_column(0.5).isEmpty(), 10000);
+    QTRY_VERIFY_WITH_TIMEOUT(!model_column(0.5).isEmpty(), 60000);
 
     MicrofacetSettings settings;
     settings.alpha_x = settings.alpha_y = 0.5;
@@ -369,7 +369,7 @@ void PlotsPanelTest::models_follow_the_surface_or_the_slider() {
 
 void PlotsPanelTest::normals_beside_the_surface() {
     show_kind(PlotKind::Normals);
-    QTRY_VERIFY_WITH_TIMEOUT(rows_of_csv(saved("normals.csv")).size() > 10, 10000);
+    QTRY_VERIFY_WITH_TIMEOUT(rows_of_csv(saved("normals.csv")).size() > 10, 60000);
     const auto rows = rows_of_csv(saved("normals.csv"));
     const NormalProfile profile = normal_profile(*bench_.surface().surface(), 180, Run(1));
     QCOMPARE(rows[0][1], QString("surface: D [1/sr]"));

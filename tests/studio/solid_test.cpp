@@ -219,9 +219,9 @@ void SolidTest::old_plots_are_marked() {
     QTest::qWait(500);
     QVERIFY(!mark.isVisible());
     window().type("ray-bounces", 9);
-    QVERIFY(QTest::qWaitFor([&] { return mark.isVisible(); }, 5000));
+    QVERIFY(QTest::qWaitFor([&] { return mark.isVisible(); }, 60000));
     QVERIFY(window().draw());
-    QVERIFY(QTest::qWaitFor([&] { return !mark.isVisible(); }, 5000));
+    QVERIFY(QTest::qWaitFor([&] { return !mark.isVisible(); }, 60000));
 }
 
 void SolidTest::every_control_has_a_name() {

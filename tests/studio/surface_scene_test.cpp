@@ -77,7 +77,7 @@ void SurfaceSceneTest::change(const std::function<void(StudioSettings&)>& edit) 
 }
 
 void SurfaceSceneTest::wait_for_surface() {
-    QTRY_VERIFY(bench_->surface().surface() && !bench_->surface().busy());
+    QTRY_VERIFY_WITH_TIMEOUT(bench_->surface().surface() && !bench_->surface().busy(), 60000);
 }
 
 /// Until all that was wished for so far is shown in full.
@@ -87,9 +87,9 @@ void SurfaceSceneTest::wait_for_picture() {
         false);
     QVERIFY(wish > 0);
     QSignalSpy failed(&view().painter(), &Painter::failed);
-    QTRY_VERIFY(failed.count() > 0);
+    QTRY_VERIFY_WITH_TIMEOUT(failed.count() > 0, 60000);
     view().refresh();
-    QTRY_VERIFY(view().frame().wish > wish && view().frame().passes >= 1);
+    QTRY_VERIFY_WITH_TIMEOUT(view().frame().wish > wish && view().frame().passes >= 1, 60000);
 }
 
 void SurfaceSceneTest::draw() {
@@ -268,7 +268,8 @@ void SurfaceSceneTest::paths_lead_from_the_light_to_their_cell() {
         s.surface_view.path_count = 50;
     });
     wait_for_surface();
-    QTRY_VERIFY(!bench_->light().busy() && bench_->light().paths().size() == 50);
+    QTRY_VERIFY_WITH_TIMEOUT(!bench_->light().busy() && bench_->light().paths().size() == 50,
+                             60000);
     const SurfaceBody body(*bench_->surface().surface());
     const Detector detector(bench_->settings().experiment.detector);
     for (const LightPath& path : bench_->light().paths()) {
@@ -291,7 +292,7 @@ void SurfaceSceneTest::paths_lead_from_the_light_to_their_cell() {
     };
     const int with = count(amber);
     change([](StudioSettings& s) { s.surface_view.paths = false; });
-    QTRY_VERIFY(bench_->light().paths().empty());
+    QTRY_VERIFY_WITH_TIMEOUT(bench_->light().paths().empty(), 60000);
     wait_for_picture();
     QVERIFY(with > count(amber) + 100);
 }
@@ -309,15 +310,15 @@ void SurfaceSceneTest::paths_of_a_cell_light_their_facets() {
             }
         return count;
     };
-    QTRY_VERIFY(!bench_->light().busy());
+    QTRY_VERIFY_WITH_TIMEOUT(!bench_->light().busy(), 60000);
     wait_for_picture();
     QCOMPARE(pale(), 0);
     bench_->select_cell(detector.cell_of(from_spherical(radians(60), kPi)));
-    QTRY_VERIFY(!bench_->light().busy() && !bench_->light().paths().empty());
+    QTRY_VERIFY_WITH_TIMEOUT(!bench_->light().busy() && !bench_->light().paths().empty(), 60000);
     wait_for_picture();
     QVERIFY(pale() > 100);
     bench_->select_cell(std::nullopt);
-    QTRY_VERIFY(!bench_->light().busy());
+    QTRY_VERIFY_WITH_TIMEOUT(!bench_->light().busy(), 60000);
     wait_for_picture();
     QCOMPARE(pale(), 0);
 }

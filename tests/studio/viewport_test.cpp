@@ -114,9 +114,9 @@ void ViewportTest::orbiter_drags_round_and_zooms() {
     QVERIFY(view_->camera().position.y > after.position.y + 0.5);
 
     scroll(*view_, 2);
-    QTRY_VERIFY(std::abs(length(view_->camera().position) - 4 * 0.81) < 1e-9);
+    QTRY_VERIFY_WITH_TIMEOUT(std::abs(length(view_->camera().position) - 4 * 0.81) < 1e-9, 60000);
     scroll(*view_, -3);
-    QTRY_VERIFY(std::abs(length(view_->camera().position) - 4 / 0.9) < 1e-9);
+    QTRY_VERIFY_WITH_TIMEOUT(std::abs(length(view_->camera().position) - 4 / 0.9) < 1e-9, 60000);
 }
 
 void ViewportTest::orbiter_knows_no_keys() {
@@ -235,7 +235,7 @@ void ViewportTest::clicks_are_no_drags() {
     drag(*view_, Qt::LeftButton, {120, 80}, {50, 0});
     QCOMPARE(clicked.count(), 1);
     QTest::mouseMove(view_.get(), {30, 40});
-    QTRY_VERIFY(hovered.count() >= 1);
+    QTRY_VERIFY_WITH_TIMEOUT(hovered.count() >= 1, 60000);
     QCOMPARE(hovered.last()[0].toPointF(), QPointF(30, 40));
 }
 
@@ -269,7 +269,7 @@ void ViewportTest::project_and_ray_are_inverse() {
 
 void ViewportTest::overlays_are_painted_over() {
     view_->set_picture(flat_picture);
-    QTRY_COMPARE(view_->frame().full, view_->size());
+    QTRY_COMPARE_WITH_TIMEOUT(view_->frame().full, view_->size(), 60000);
     view_->add_overlay([](QPainter& painter, const Viewport& view) {
         QVERIFY(view.project({0, 0, 0}));
         painter.fillRect(10, 10, 20, 20, Qt::red);
@@ -284,13 +284,13 @@ void ViewportTest::overlays_are_painted_over() {
 
 void ViewportTest::still_picture_follows_movement() {
     view_->set_picture(flat_picture);
-    QTRY_VERIFY(!view_->is_moving() && view_->frame().full == view_->size());
+    QTRY_VERIFY_WITH_TIMEOUT(!view_->is_moving() && view_->frame().full == view_->size(), 60000);
     bool moved = false;
     connect(view_.get(), &Viewport::frame_shown, this,
             [&] { moved = moved || view_->frame().moving; });
     drag(*view_, Qt::LeftButton, {100, 100}, {50, 0});
-    QTRY_VERIFY(moved);
-    QTRY_VERIFY(!view_->is_moving() && !view_->frame().moving);
+    QTRY_VERIFY_WITH_TIMEOUT(moved, 60000);
+    QTRY_VERIFY_WITH_TIMEOUT(!view_->is_moving() && !view_->frame().moving, 60000);
     QCOMPARE(view_->frame().image.size(), view_->size());
 }
 

@@ -157,7 +157,7 @@ void WindowTest::asks_before_a_change_is_lost() {
     auto* box = window_->findChild<QMessageBox*>("save-first");
     QVERIFY(box != nullptr && box->isVisible());
     box->button(QMessageBox::Discard)->click();
-    QVERIFY(QTest::qWaitFor([this] { return !window_->isVisible(); }, 5000));
+    QVERIFY(QTest::qWaitFor([this] { return !window_->isVisible(); }, 60000));
 }
 
 void WindowTest::closes_at_once_while_drawing() {
