@@ -185,6 +185,7 @@ Experiment ExperimentOptions::read(const std::string& spec) {
     const bool hinted = given("f0") || given("ior") || given("k") || given("material");
     if (fresnel == FresnelKind::None && !given("fresnel") && (hinted || !fresnel_in_config_))
         fresnel = implied_fresnel(experiment.optics);
+    tell_unused(experiment);
     return experiment;
 }
 
@@ -194,6 +195,16 @@ void ExperimentOptions::refuse_unused(const Experiment& experiment) const {
         const Param<Experiment>* param = find(table, key);
         if (option->count() == 0 || param->used(experiment)) continue;
         throw Error(ErrorCode::Usage, param->unused(experiment), key);
+    }
+}
+
+void ExperimentOptions::tell_unused(const Experiment& experiment) const {
+    const ParamTable<Experiment> table = experiment_params();
+    for (const auto& [key, where] : config_lines_) {
+        const Param<Experiment>* param = find(table, key);
+        if (param->used(experiment) || param->text(experiment) == param->default_text()) continue;
+        write_err(fmt::format("asperity: note: {}: {} has no effect: {}\n", where, key,
+                              param->unused(experiment)));
     }
 }
 
@@ -225,6 +236,7 @@ void ExperimentOptions::apply_config(Experiment& experiment, const std::string& 
             } catch (const Error& error) {
                 throw Error(ErrorCode::InvalidInput, error.what(), where);
             }
+            config_lines_.emplace_back(setting.key, where);
         } else if (option && option != config_ && option != app_->get_help_ptr()) {
             if (option->count() > 0) continue;
             try {

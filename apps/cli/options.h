@@ -68,9 +68,10 @@ class ExperimentOptions {
     /// Reads --config, if given, then `spec`, a surface given as the verb's argument, then the
     /// options of the command line: what is read later wins. Keys of the file are those of every
     /// experiment and the long options of this verb (quiet, threads), which become the value of the
-    /// option unless the command line has one. An option of the command line that the chosen kind
-    /// of surface does not use is refused. Throws Error(Usage), Error(InvalidInput,
-    /// "file:line").
+    /// option unless the command line has one. An option of the command line that the other
+    /// settings leave without effect is refused; of such a line of the file, unless it says the
+    /// default, a note is written: files are made for more than one run. Throws Error(Usage),
+    /// Error(InvalidInput, "file:line").
     Experiment read(const std::string& spec = {});
 
     /// True when one of the experiment's options was given on the command line.
@@ -81,11 +82,14 @@ class ExperimentOptions {
     void apply_config(Experiment& experiment, const std::string& path);
     /// Throws Error(Usage, option) for one that the chosen kind has no use for.
     void refuse_unused(const Experiment& experiment) const;
+    /// Notes the lines of the config file that decide nothing.
+    void tell_unused(const Experiment& experiment) const;
 
     CLI::App* app_ = nullptr;
     CLI::Option* config_ = nullptr;
     bool fresnel_in_config_ = false;
-    std::vector<std::pair<std::string, CLI::Option*>> options_;  ///< key, option
+    std::vector<std::pair<std::string, std::string>> config_lines_;  ///< key, "file:line"
+    std::vector<std::pair<std::string, CLI::Option*>> options_;      ///< key, option
 };
 
 }  // namespace asperity::cli

@@ -356,6 +356,18 @@ class Config(ProgramTest):
                              "0,0.1,0.2,0.3,10,45,80")
         self.assertEqual(told["checksum"], typed["checksum"])
 
+    def test_lines_without_effect_are_noted(self):
+        """Not the defaults, which every file that asperity writes holds."""
+        with open("run.txt", "w", encoding="utf-8") as file:
+            file.write("surface = thesis\nalpha = 0.3\nhurst = 0.5\nmax-rays = 5000\n"
+                       "size = 64\nresolution = 16\nrays = 2000\nlayers = 1\n")
+        told = run("simulate", "--config", "run.txt").stderr
+        self.assertIn("note: run.txt:3: hurst has no effect: thesis does not use it", told)
+        self.assertIn("note: run.txt:4: max-rays has no effect: limits a run with --until", told)
+        self.assertEqual(told.count("note:"), 2)
+        told = run("simulate", "--config", "run.txt", "--until", "50%").stderr
+        self.assertNotIn("max-rays has", told)
+
     def test_errors_name_file_and_line(self):
         for line, words in (("raiz = 3", "did you mean rays?"), ("rays = many", "rays"),
                             ("rays", "key = value"), ("quiet = perhaps", "quiet"),
