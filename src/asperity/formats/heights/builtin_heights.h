@@ -4,17 +4,23 @@
 
 #include <asperity/formats/heights/heights_format.h>
 
+#include <span>
+
 namespace asperity::io {
 
 HeightsFormat al3d_format();
+HeightsFormat bcr_format();
 HeightsFormat esri_format();
 HeightsFormat exr_format();
 HeightsFormat gsf_format();
 HeightsFormat gwy_format();
 HeightsFormat matrix_format();
 HeightsFormat metropro_format();
+HeightsFormat nanoscope_format();
+HeightsFormat nms_format();
 HeightsFormat npy_format();
 HeightsFormat opd_format();
+HeightsFormat park_tiff_format();
 HeightsFormat plu_format();
 HeightsFormat plux_format();
 HeightsFormat png_format();
@@ -26,6 +32,9 @@ HeightsFormat tiff_format();
 HeightsFormat tmd_format();
 HeightsFormat x3p_format();
 HeightsFormat xyz_format();
+
+/// Whether a TIFF has the tags of Park Systems in what is there of it.
+bool has_park_tags(std::span<const std::byte> bytes);
 
 /// HeightsFormat::open of a file that holds one surface and was read whole.
 std::vector<HeightsChannel> one_surface(Topography topography);

@@ -4,6 +4,7 @@
 #include <asperity/formats/heights/binary_view.h>
 #include <asperity/formats/heights/heights_source.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace asperity::io {
@@ -44,6 +45,19 @@ Topography read_grid(const HeightsSource& source, const BinaryView& view, std::u
 
 inline bool never_missing(double) {
     return false;
+}
+
+/// Turns the rows of a file whose first one lies at the bottom.
+inline void turn_rows(Topography& t) {
+    const auto nx = static_cast<std::ptrdiff_t>(t.nx);
+    const auto turn = [&](auto& samples) {
+        if (samples.empty()) return;
+        for (std::ptrdiff_t j = 0, k = t.ny - 1; j < k; ++j, --k)
+            std::swap_ranges(samples.begin() + j * nx, samples.begin() + (j + 1) * nx,
+                             samples.begin() + k * nx);
+    };
+    turn(t.heights);
+    turn(t.missing);
 }
 
 }  // namespace asperity::io

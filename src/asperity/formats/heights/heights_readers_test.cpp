@@ -153,6 +153,37 @@ TEST(HeightsReaders, RefuseWhatDoesNotFit) {
         {"a.dat", metropro().substr(0, 850), "a.dat: "},
         {"a.tmd", tmd().substr(0, 70), "a.tmd: "},
         {"a.npy", npy().substr(0, 150), "a.npy: "},
+        {"a.bcr", bcr_integers().substr(0, 2058), "12 x 1 bytes are needed from byte 2048"},
+        {"a.bcr", with(bcr_integers(), "xpixels = 3", "xpixels = x"), "xpixels 'x' is no whole"},
+        {"a.bcr", with(bcr_integers(), "xpixels = 3", "xpixels = 1"), "1 x 2 samples"},
+        {"a.bcr", with(bcr_integers(), "bcrstm", "bcrxyz"), "is neither bcrstm nor bcrf"},
+        {"a.bcr", with(bcr_integers(), "bit2nm = 2", "bit2nm = 0"), "a count is no length"},
+        {"a.bcr", with(bcr_integers(), "# by hand\n", "zunit = V\n"), "no channel holds heights"},
+        {"a.bcr", with(bcr_integers(), "# by hand\n", "xunit = V\n"), "'V' is no unit of length"},
+        {"a.bcr", with(bcr_integers(), "xlength = 3000", "xlength = -100"),
+         "is no positive length"},
+        {"a.bcr", with(bcr_integers(), "# by hand\n", "headersize = 999999999999\n"),
+         "the file ends at 2076"},
+        {"a.nms", nms().substr(0, 3470), "a.nms: "},
+        {"a.nms", nms().substr(0, 100), "a.nms: "},
+        {"a.nms", nms().replace(16, 8, nms().substr(24, 8)), "are no range"},
+        {"a.tif", park_tiff().substr(0, 420), "a.tif: "},
+        {"a.tif", with(park_tiff(), wide_letters("nm"), wide_letters("V ")),
+         "no channel holds heights"},
+        {"a.tif", park_tiff().replace(12, 1, "\x01"), "a line profile"},
+        {"a.tif", park_tiff().replace(12 + 100, 1, "\x04"),
+         "4 x 2 samples need 32 bytes, the tag 50434 holds 24"},
+        {"a.tif", park_tiff().replace(12 + 348, 1, "\x03"), "samples of type 3 are not known"},
+        {"a.tif", park_tiff().replace(12 + 220, 8, std::string(8, '\0')),
+         "give no height of a count"},
+        {"a.spm", nanoscope().substr(0, 2055), "a.spm: "},
+        {"a.spm", with(nanoscope(), "File list end", "Fale list end"), "has no \\*File list end"},
+        {"a.spm", with(nanoscope(), "Samps/line: 3", "Samps/line: x"), "'x' is no whole number"},
+        {"a.spm", with(nanoscope(), "Bytes/pixel: 2", "Bytes/pixel: 3"), "samples of 3 bytes"},
+        {"a.spm", with(nanoscope(), "32.768 um/V", "32.768 um/A"), "no channel holds heights"},
+        {"a.spm", with(nanoscope(), "Scan Size: 3 4 ~m", "Scan Sighs: 3 4 ~m"), "the scan size"},
+        {"a.spm", with(nanoscope(), "Scan Size: 3 4 ~m", "Scan Size: 3 4 ~V"),
+         "no positive length"},
         {"a.npy", with(npy(), "<f8", "<c8"), "a.npy: "},
     };
     for (const auto& bad : cases) {
@@ -202,8 +233,8 @@ TEST(HeightsTexts, DecimalCommas) {
 }
 
 TEST(HeightsTexts, PointsOnAGrid) {
-    // In any order, one missing; the largest y is the top row.
-    const Topography t = read_bytes("a.xyz", "2 0 6\n0 2 1\n1 2 2\n2 2 3\n1 0 5\n");
+    // In any order, one missing; y grows with the row, as the surface has it.
+    const Topography t = read_bytes("a.xyz", "2 2 6\n0 0 1\n1 0 2\n2 0 3\n1 2 5\n");
     expect_heights(t, 1, 0);
     EXPECT_EQ(t.missing_count(), 1u);
     EXPECT_EQ(t.missing[3], 1);

@@ -3,6 +3,7 @@
 // heights 1 .. 6 um, spacing 1 um x 2 um, the fourth height missing.
 #pragma once
 
+#include <asperity/formats/heights/scan_test_files.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -314,11 +315,16 @@ inline std::vector<HeightsTestFile> heights_test_files() {
             {"opd", opd()},
             {"plu", plu()},
             {"al3d", al3d()},
+            {"bcr", bcr_integers()},
+            {"bcr", bcr_floats()},
+            {"nms", nms(), 1e-6, false},
+            {"park-tiff", park_tiff()},
+            {"nanoscope", nanoscope(), 1e-6, false},
             {"tiff", tiff(), 1},
             {"esri", esri(), 1},
             {"spip", spip()},
             {"matrix", "1 2 3\nnan 5 6\n", 1},
-            {"xyz", "0 2 1\n1 2 2\n2 2 3\n1 0 5\n2 0 6\n", 1}};
+            {"xyz", "0 0 1\n1 0 2\n2 0 3\n1 2 5\n2 2 6\n", 1}};
 }
 
 }  // namespace asperity::io::test

@@ -39,7 +39,7 @@ std::optional<Axis> axis_of(std::vector<double> values) {
 std::size_t place_of(const PointGrid& grid, double x, double y) {
     const auto i = static_cast<std::uint64_t>(std::round((x - grid.x0) / grid.dx));
     const auto j = static_cast<std::uint64_t>(std::round((y - grid.y0) / grid.dy));
-    return static_cast<std::size_t>((grid.ny - 1 - j) * grid.nx + i);
+    return static_cast<std::size_t>(j * grid.nx + i);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ struct PointGrid {
 std::optional<PointGrid> grid_of(const PointList& points);
 
 /// Heights on the grid, in the points' unit; places without a point are missing. y grows upwards:
-/// the largest y becomes the top row.
+/// y grows with the row, so the smallest becomes the top one.
 Topography on_grid(const PointList& points, const PointGrid& grid, const HeightsSource& source);
 
 }  // namespace asperity::io

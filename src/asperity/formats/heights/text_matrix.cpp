@@ -123,7 +123,7 @@ Topography point_surface(const TextTable& table, const PointList& points, const 
     t.note(fmt::format("a list of {} points x y z on a grid of {} x {}", points.x.size(), grid.nx,
                        grid.ny));
     t.note(fmt::format("spacing {:.6g} x {:.6g}", grid.dx, grid.dy));
-    t.note("largest y on top");
+    t.note("smallest y on top");
     if (table.decimal_comma) t.note("decimal commas");
     t.assume("x, y and z are in one unit");
     note_unread(t, table.header);

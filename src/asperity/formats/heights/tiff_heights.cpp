@@ -151,6 +151,8 @@ Topography read(const HeightsSource& source) {
 }
 
 std::vector<HeightsChannel> open(const HeightsSource& source) {
+    // Their directory may stand beyond what was sniffed; the picture is not what was measured
+    if (has_park_tags(source.bytes())) return park_tiff_format().open(source);
     const Image image(source);
     image.check();
     return {{"heights", image.nx, image.ny, {}, [source] { return read(source); }}};

@@ -81,7 +81,7 @@ Topography points_on_grid(PointList points, const HeightsSource& source) {
     Topography t = on_grid(points, *grid, source);
     const double dx = t.dx, dy = t.dy;
     set_spacing(t, dx, dy, "m, as the standard has it", source.path());
-    t.note("points put on their grid, largest y on top");
+    t.note("points put on their grid, smallest y on top");
     return t;
 }
 
