@@ -32,9 +32,9 @@ constexpr const char* kClosing =
     "Light from the source's aperture falls on the surface, is followed from facet to facet and\n"
     "counts where it leaves into the receptor's, as ISO 2813 and ASTM D523 have them: 100 gloss\n"
     "units are what polished glass of index 1.567 sends there. At 20 degrees also the haze of ISO\n"
-    "13803. The reflectance is that over all directions. Errors are standard errors of the rays; "
-    "a\n"
-    "small surface differs from its like by more.\n"
+    "13803, and of a dielectric read at 20 and 60 degrees the haze index of ASTM D4039. The\n"
+    "reflectance is that over all directions. Errors are standard errors of the rays; a small\n"
+    "surface differs from its like by more.\n"
     "\n"
     "Examples\n"
     "  asperity gloss --surface gaussian --alpha 0.05 --ior 1.5\n"
@@ -172,6 +172,9 @@ class GlossVerb {
                                 "through the side of the patch\n",
                                 r.geometry.angle_deg, 100 * r.truncated, 100 * r.edge));
         }
+        for (std::size_t c = 0; c < report.haze_index.size(); ++c)
+            say(fmt::format("haze index of ASTM D4039 ({}), gloss at 60° less that at 20°: {}\n",
+                            report.channel_names[c], with_error(report.haze_index[c])));
         for (const std::string& note : report.notes) say("note: " + note + "\n");
         if (waves)
             say("TIS: share of the reflected light that interference alone scatters, at " +
@@ -187,6 +190,8 @@ class GlossVerb {
         json["channels"] = report.channel_names;
         json["stopped"] = report.stopped;
         json["notes"] = report.notes;
+        json["haze_index"] = nullptr;
+        if (!report.haze_index.empty()) json["haze_index"] = json_of(report.haze_index);
         json["geometric_optics"] = nullptr;
         if (waves) json["geometric_optics"] = waves->verdict;
         json["readings"] = Json::array();

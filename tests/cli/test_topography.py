@@ -86,6 +86,9 @@ class Gloss(ProgramTest):
             self.assertAlmostEqual(reading["gloss"]["value"][0], expected, delta=0.3)
         self.assertEqual(glass["readings"][0]["haze"]["value"], [0])
         self.assertIsNone(glass["readings"][1]["haze"])
+        self.assertAlmostEqual(glass["haze_index"]["value"][0], 89.14 - 82.05, delta=0.5)
+        self.assertIsNone(mirror["haze_index"])
+        self.assertIn("taken to be as large", glass["notes"][-1])
 
     def test_measured_surface(self):
         write_tilted("a.txt")

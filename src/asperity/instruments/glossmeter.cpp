@@ -171,6 +171,27 @@ void trace_batches(const Glossmeter& meter, const BatchPlan& plan, std::uint64_t
     }
 }
 
+const GlossReading* at_angle(const GlossReport& report, double angle_deg) {
+    const auto found =
+        std::find_if(report.readings.begin(), report.readings.end(),
+                     [&](const GlossReading& r) { return r.geometry.angle_deg == angle_deg; });
+    return found == report.readings.end() ? nullptr : &*found;
+}
+
+void tell_haze(GlossReport& report, const OpticsSettings& optics) {
+    const GlossReading *steep = at_angle(report, 20), *middle = at_angle(report, 60);
+    if (steep != nullptr)
+        report.notes.push_back(fmt::format(
+            "haze: the receptors at {} and {} degrees are taken to be as large as that at 20 "
+            "degrees, {} x {}, and added: the standards' own sizes are not published openly",
+            20 - kHazeOff, 20 + kHazeOff, steep->geometry.receptor.in_plane,
+            steep->geometry.receptor.across));
+    if (steep == nullptr || middle == nullptr || optics.fresnel != FresnelKind::Dielectric) return;
+    for (std::size_t c = 0; c < steep->gloss.size(); ++c)
+        report.haze_index.push_back({middle->gloss[c].value - steep->gloss[c].value,
+                                     std::hypot(middle->gloss[c].error, steep->gloss[c].error)});
+}
+
 void check(const GlossSettings& settings) {
     if (settings.angles_deg.empty()) throw Error(ErrorCode::Usage, "no angle is given", "geometry");
     for (const double angle : settings.angles_deg) standard_gloss_geometry(angle);
@@ -220,6 +241,7 @@ GlossReport measure_gloss(const Heightfield& surface, const OpticsSettings& opti
         if (run.stop_requested()) break;
     }
     run.end();
+    tell_haze(report, optics);
     report.stopped = run.stop_requested();
     return report;
 }

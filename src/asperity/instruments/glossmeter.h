@@ -28,9 +28,10 @@ struct WithError {
 struct GlossReading {
     GlossGeometry geometry;
     std::vector<WithError> gloss;  ///< gloss units, by channel
-    /// At 20 degrees, else empty: 100 times what two receptors at 18.1 and 21.9 degrees see, over
-    /// what the receptor at 20 degrees would see of the glass of 100 gloss units (ISO 13803, ASTM
-    /// E430 method B).
+    /// At 20 degrees, else empty: 100 times what two receptors at 18.1 and 21.9 degrees see
+    /// together, over what the receptor at 20 degrees would see of the glass of 100 gloss units.
+    /// The angles and the ratio are those of ISO 13803 and ASTM E430 method B; the receptors are
+    /// taken to be as large as that of the gloss.
     std::vector<WithError> haze;
     std::vector<WithError> reflectance;  ///< directional-hemispherical, over all directions
     double truncated = 0;  ///< share of the light that still travelled after all reflections
@@ -41,6 +42,9 @@ struct GlossReading {
 struct GlossReport {
     std::vector<std::string> channel_names;
     std::vector<GlossReading> readings;  ///< in the order of the angles
+    /// By channel: the haze index of ASTM D4039, the gloss at 60 degrees less that at 20. Empty
+    /// unless both were read of a dielectric; meant for 70 gloss units and more at 60 degrees.
+    std::vector<WithError> haze_index;
     std::vector<std::string> notes;
     bool stopped = false;  ///< the readings hold what was done, none of fewer than two batches
 };

@@ -69,6 +69,41 @@ TEST(Glossmeter, FlatGlass) {
     }
 }
 
+// ASTM D4039: of glass of 100 gloss units everywhere 0, of index 1.5 the 89.14 - 82.05 above.
+TEST(Glossmeter, TheHazeIndexIsTheGlossAtSixtyLessThatAtTwenty) {
+    OpticsSettings glass;
+    glass.fresnel = FresnelKind::Dielectric;
+    glass.ior = {1.567, 1.5};
+    const GlossReport report = read(flat(), glass);
+    ASSERT_EQ(report.haze_index.size(), 2u);
+    EXPECT_NEAR(report.haze_index[0].value, 0, 0.4);
+    EXPECT_NEAR(report.haze_index[1].value, 89.14 - 82.05, 0.4);
+    EXPECT_EQ(report.haze_index[1].error,
+              std::hypot(report.readings[0].gloss[1].error, report.readings[1].gloss[1].error));
+    EXPECT_TRUE(read(flat()).haze_index.empty());  // a mirror is no coating
+}
+
+// Facets tilted by t send light to 20 + 2 t degrees, the source blurs it by 0.375 to either side:
+// from 1.275 to 2.525 off the mirror direction the receptors at 1.9, of 0.9 to either side, see all
+// of it. Of 0.225 to 0.975 off, nine tenths lie within the 0.9 of the receptor for the gloss.
+TEST(Glossmeter, HazeIsWhatTwoReceptorsSeeTogether) {
+    SurfaceSettings settings;
+    settings.kind = "vgroove";
+    settings.size = 64;
+    GlossSettings gloss;
+    gloss.angles_deg = {20};
+    gloss.run.rays = 20000;
+    asperity::Run run(1);
+    for (const double tilt : {0.3, 0.95, 2.0}) {
+        settings.tilt_deg = tilt;
+        const GlossReading r =
+            measure_gloss(make_surface(settings, run), {}, gloss, run).readings[0];
+        const double glass = GlossOptics(standard_gloss_geometry(20)).glass(kGlossIndex);
+        EXPECT_NEAR(r.haze[0].value, tilt == 0.95 ? 100 / glass : 0, 0.02 * 100 / glass) << tilt;
+        EXPECT_NEAR(r.gloss[0].value, tilt == 0.3 ? 90 / glass : 0, 0.01 * 100 / glass) << tilt;
+    }
+}
+
 // A white that scatters alike in all directions: f = 1 / pi.
 TEST(GlossOptics, ALambertianWhite) {
     const double expected[] = {1.203, 2.485, 0.0327};
