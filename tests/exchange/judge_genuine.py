@@ -25,8 +25,6 @@ REFUSED = {
     "nonsense_txt_file.txt": ("no numbers: nobody reads it", "no numbers"),
     "point_cloud_int16_binary.x3p": ("scattered points of no grid", "lie on no regular grid"),
 }
-UNREAD = {"mnt-2.mnt": ("a document of Mountains, whose layout its maker has not published", ".mnt")}
-REFUSED |= UNREAD
 
 # What another reader makes of a file that we read otherwise: in what, and who is right.
 TOLD = {

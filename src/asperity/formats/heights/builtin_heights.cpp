@@ -95,11 +95,11 @@ HeightsFormat png_format() {
 }
 
 std::vector<HeightsFormat> builtin_heights() {
-    return {gsf_format(),  exr_format(),       png_format(),       sdf_format(), x3p_format(),
-            plux_format(), sur_format(),       gwy_format(),       plu_format(), opd_format(),
-            al3d_format(), bcr_format(),       nanoscope_format(), nms_format(), metropro_format(),
-            tmd_format(),  park_tiff_format(), tiff_format(),      npy_format(), esri_format(),
-            spip_format(), text_format(),      matrix_format(),    xyz_format()};
+    return {gsf_format(),      exr_format(),  png_format(),       sdf_format(),       x3p_format(),
+            plux_format(),     sur_format(),  gwy_format(),       plu_format(),       opd_format(),
+            al3d_format(),     bcr_format(),  mnt_format(),       nanoscope_format(), nms_format(),
+            metropro_format(), tmd_format(),  park_tiff_format(), tiff_format(),      npy_format(),
+            esri_format(),     spip_format(), text_format(),      matrix_format(),    xyz_format()};
 }
 
 }  // namespace asperity::io

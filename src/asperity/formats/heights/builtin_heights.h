@@ -16,6 +16,7 @@ HeightsFormat gsf_format();
 HeightsFormat gwy_format();
 HeightsFormat matrix_format();
 HeightsFormat metropro_format();
+HeightsFormat mnt_format();
 HeightsFormat nanoscope_format();
 HeightsFormat nms_format();
 HeightsFormat npy_format();

@@ -3,6 +3,7 @@
 // heights 1 .. 6 um, spacing 1 um x 2 um, the fourth height missing.
 #pragma once
 
+#include <asperity/formats/heights/mnt_test_file.h>
 #include <asperity/formats/heights/scan_test_files.h>
 #include <zlib.h>
 
@@ -318,6 +319,7 @@ inline std::vector<HeightsTestFile> heights_test_files() {
             {"bcr", bcr_integers()},
             {"bcr", bcr_floats()},
             {"nms", nms(), 1e-6, false},
+            {"mnt", mnt()},
             {"park-tiff", park_tiff()},
             {"nanoscope", nanoscope(), 1e-6, false},
             {"tiff", tiff(), 1},
