@@ -47,6 +47,7 @@ std::string closing() {
            "  asperity fit metal.asperity\n"
            "  asperity fit metal.asperity --model ggx,beckmann --light single --png residuals.png\n"
            "  asperity fit metal.asperity --model ggx --reflectance f0 --json\n"
+           "  asperity fit paint.asperity --model ggx,beckmann --lambert\n"
            "  asperity fit paint.xml --model cook-torrance:k=ibl,ggx --metric log\n";
 }
 
@@ -79,7 +80,7 @@ std::string text_of_report(const FitReport& report, const FitData& data) {
     for (const Fit& fit : report.fits) {
         std::vector<std::string> row = {fit.text};
         if (!chi2) row.push_back(fmt::format("{:.4g}", fit.misfit));
-        if (errors) row.push_back(fmt::format("{:.4g}", fit.chi2_per_dof));
+        if (errors) row.push_back(figure_of(fit.chi2_per_dof, 4));
         row.insert(row.end(), {percent(fit.mean_l1), percent(fit.mean_noise),
                                fmt::format("{:+.4f}", fit.max_albedo_difference)});
         table.add(std::move(row));
@@ -143,10 +144,7 @@ class FitVerb {
   public:
     explicit FitVerb(CLI::App& app) : app_(&app) {
         file_ = add_text(app, "file", "FILE", "a result file or a file of a BSDF", "");
-        for (const Param<FitSettings>& row : fit_params())
-            options_.push_back(add_text(app, "--" + row.info.name, metavar(row.info),
-                                        help_text(row.info), row.info.group)
-                                   ->default_str(row.default_text()));
+        for (const Param<FitSettings>& row : fit_params()) options_.push_back(add_row(app, row));
         experiment_.add_to(app, {kLight, kDetector}, false);
         threads_.add_to(app);
         png_ =
@@ -177,11 +175,21 @@ class FitVerb {
     }
 
   private:
+    static CLI::Option* add_row(CLI::App& app, const Param<FitSettings>& row) {
+        const ParamInfo& info = row.info;
+        const std::string name = "--" + info.name, help = help_text(info);
+        if (info.type == ParamType::Flag) return app.add_flag(name, help)->group(info.group);
+        return add_text(app, name, metavar(info), help, info.group)
+            ->default_str(row.default_text());
+    }
+
     FitSettings read_settings() const {
         FitSettings settings;
         const ParamTable<FitSettings> rows = fit_params();
         for (std::size_t k = 0; k < rows.size(); ++k)
-            if (options_[k]->count() > 0) rows[k].apply(settings, text_of(options_[k]));
+            if (options_[k]->count() > 0)
+                rows[k].apply(settings,
+                              rows[k].info.type == ParamType::Flag ? "true" : text_of(options_[k]));
         return settings;
     }
 

@@ -6,9 +6,11 @@
 //     #include <asperity/surface/make_surface.h>
 #include <asperity/bsdf/bsdf.h>
 #include <asperity/bsdf/bsdf_models.h>
+#include <asperity/bsdf/models/abg.h>
 #include <asperity/bsdf/models/cook_torrance.h>
 #include <asperity/bsdf/models/lambert.h>
 #include <asperity/bsdf/models/microfacet.h>
+#include <asperity/bsdf/models/plus_lambert.h>
 #include <asperity/bsdf/smith.h>
 #include <asperity/bsdf/spec.h>
 #include <asperity/core/directions.h>

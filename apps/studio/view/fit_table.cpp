@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit_table.h"
 
+#include <asperity/fit/verdict.h>
+
 #include <QHeaderView>
 
 #include <algorithm>
@@ -27,7 +29,7 @@ QString value_text(const FittedParam& p) {
 QTreeWidgetItem* row_of(const Fit& fit, const FitOutcome& outcome) {
     QStringList cells = {QString::fromStdString(fit.text)};
     if (outcome.report.metric != FitMetric::Chi2) cells << QString::number(fit.misfit, 'g', 4);
-    if (outcome.data->has_errors()) cells << QString::number(fit.chi2_per_dof, 'g', 4);
+    if (outcome.data->has_errors()) cells << QString::fromStdString(figure_of(fit.chi2_per_dof, 4));
     cells << percent(fit.mean_l1);
     if (outcome.data->has_errors()) cells << percent(fit.mean_noise);
     cells << (fit.max_albedo_difference >= 0 ? "+" : "") +

@@ -61,7 +61,9 @@ QWidget* real_control(const Param<StudioSettings>& param, const QString& label, 
         bindings.bind(field, label, reader<double>(param), writer<double>(param));
         return field;
     }
-    auto* box = new NumberBox(low, high, kDecimals, 0.1);
+    constexpr int kDecimalsOfTiny = 9;
+    auto* box =
+        new NumberBox(low, high, low > 0 && low < kOneDigit ? kDecimalsOfTiny : kDecimals, 0.1);
     box->setSuffix(suffix_of(param.info));
     bindings.bind(box, label, reader<double>(param), writer<double>(param));
     return box;

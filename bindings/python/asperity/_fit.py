@@ -114,8 +114,9 @@ def fit(source: Any, model: str = "all", *, threads: int | None = None, **settin
 
     `model` is "all", or models between commas, keys that are given being fixed: "ggx,beckmann:alpha=0.3". Settings
     are those of the command line's fit: metric ("auto", "chi2", "l2", "log", "cube-root"), reflectance ("auto", "run",
-    "f0", "ior", "conductor"), free ("alpha_y": more keys to set free), light ("all", or "single": what was reflected
-    once, as microfacet models have it), max_theta_deg; and, for what is no measurement, the light and the cells it is
+    "f0", "ior", "conductor"), free ("alpha_y": more keys to set free), lambert (True: a
+    diffuse part is added to each model, its albedo free), light ("all", or "single": what was reflected once, as
+    microfacet models have it), max_theta_deg; and, for what is no measurement, the light and the cells it is
     averaged over: theta_deg, layers, resolution ... Same result for any number of threads.
     """
     handle = handle_of(source, "source")

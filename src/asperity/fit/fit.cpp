@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <asperity/bsdf/models/plus_lambert.h>
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
 #include <asperity/fit/fit.h>
@@ -123,7 +124,10 @@ Fit fit_model(const FitData& data, const FreeModel& model, FitMetric metric, int
     Fit fit;
     std::vector<double> values;
     for (std::size_t k = 0; k < model.free.size(); ++k) {
-        values.push_back(rounded(best.values[k]));
+        const FreeParam& param = model.free[k];
+        const double middle = 0.5 * (param.lowest() + param.highest());
+        const double end = param.coordinate(best.values[k]) < middle ? param.low : param.high;
+        values.push_back(best.at_end[k] ? end : rounded(best.values[k]));
         fit.params.push_back(
             {model.free[k].key, model.free[k].entry, values[k], best.errors[k], best.at_end[k]});
     }
@@ -142,16 +146,18 @@ std::vector<std::string> keys_of(const std::string& text) {
     return text.empty() ? std::vector<std::string>{} : split_models(text);
 }
 
+/// Whether the model of a text, "ggx:alpha=0.3", has a key.
+bool has_key(const std::string& text, const std::string& key) {
+    const auto model = find_bsdf_model(text.substr(0, text.find(':')));
+    return model && std::any_of(model->params.begin(), model->params.end(),
+                                [&](const BsdfParam& param) { return param.info.name == key; });
+}
+
 /// Throws for a key that none of the models has.
 void check_keys(const std::vector<std::string>& keys, const std::vector<std::string>& models) {
     for (const std::string& key : keys) {
-        bool known = false;
-        for (const std::string& text : models) {
-            const auto model = find_bsdf_model(text.substr(0, text.find(':')));
-            for (std::size_t k = 0; model && k < model->params.size(); ++k)
-                known = known || model->params[k].info.name == key;
-        }
-        if (!known)
+        const auto has = [&](const std::string& text) { return has_key(text, key); };
+        if (std::none_of(models.begin(), models.end(), has))
             throw Error(ErrorCode::Usage, fmt::format("'{}' is a key of none of the models", key),
                         "free");
     }
@@ -172,18 +178,26 @@ FitReport fit_models(const FitData& data, const FitSettings& settings, Run& run)
     FitReflectance reflectance = settings.reflectance;
     if (reflectance == FitReflectance::Auto)
         reflectance = data.knows_optics ? FitReflectance::Run : FitReflectance::F0;
-    const std::vector<std::string> also = keys_of(settings.free);
+    std::vector<std::string> also = keys_of(settings.free);
     const bool all = settings.models == "all";
     const std::vector<std::string> texts = split_models(all ? bsdf_model_names() : settings.models);
     check_keys(also, texts);
     if (texts.empty()) throw Error(ErrorCode::Usage, "names no model", "model");
+    const auto with_lambert = [&](const std::string& text) {
+        return settings.lambert && has_key(text, kLambertKey);
+    };
+    if (settings.lambert) {
+        if (std::none_of(texts.begin(), texts.end(), with_lambert))
+            throw Error(ErrorCode::Usage, "none of the models takes a diffuse part", "lambert");
+        also.emplace_back(kLambertKey);
+    }
     run.begin("fitting models", texts.size());
     for (const std::string& text : texts) {
         if (!run.keep_going()) throw Error(ErrorCode::Stopped, "stopped while fitting");
         try {
             const FreeModel model = free_model(text, data, reflectance, also);
             report.fits.push_back(fit_model(data, model, report.metric, run.threads()));
-            report.fits.back().text = text;
+            report.fits.back().text = text + (with_lambert(text) ? " plus lambert" : "");
         } catch (const Error& error) {
             if (!all || error.code() != ErrorCode::Usage || error.where() == "metric" ||
                 error.where() == "free" || error.where() == "reflectance")

@@ -25,12 +25,13 @@ struct FitSettings {
     std::string models = "all";  ///< as split_models() takes them, or "all" of the registry
     FitMetric metric = FitMetric::Auto;
     FitReflectance reflectance = FitReflectance::Auto;
-    std::string free;  ///< keys between commas that are free, too
+    std::string free;      ///< keys between commas that are free, too
+    bool lambert = false;  ///< a diffuse part, free, is added to each model that has none
     FitLight light = FitLight::All;
     double last_theta_deg = 85;  ///< no incidence and no outgoing direction beyond
 };
 
-/// A row for each: "model", "metric", "reflectance", "free", "light", "max-theta".
+/// A row for each: "model", "metric", "reflectance", "free", "lambert", "light", "max-theta".
 ParamTable<FitSettings> fit_params();
 
 struct FittedParam {
@@ -51,7 +52,8 @@ struct FitLayerMisfit {
 
 /// A model fitted.
 struct Fit {
-    std::string text;  ///< the model as it was asked for
+    std::string
+        text;  ///< the model as it was asked for; "ggx plus lambert" by FitSettings::lambert
     std::string spec;  ///< the specification that parse_brdf_spec reads, numbers to six digits
     std::vector<FittedParam> params;
     double misfit = 0;  ///< by the metric

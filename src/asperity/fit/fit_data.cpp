@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -23,12 +24,20 @@ int rows_below(const Detector& detector, double last_theta) {
     return rows;
 }
 
+/// Of the variance that counting rays would have, the least that is believed.
+constexpr double kLeastVariance = 0.1;
+
 /// Energies and variances of a layer. The light of one bounce order has its share of the variance
-/// of all.
+/// of all. Where each batch meets each facet, as at normal incidence, batches agree to a rounding;
+/// such a layer would count for a million of the others.
 detail::LayerEnergies energies_of(const Measurement& m, const Layer& layer, FitLight light) {
     detail::LayerEnergies values;
     const int cells = m.detector.cells();
-    for (int channel = 0; channel < m.channels(); ++channel)
+    for (int channel = 0; channel < m.channels(); ++channel) {
+        double sum = 0;
+        for (int cell = 0; cell < cells; ++cell) sum += m.energy(layer, channel, cell);
+        const double least =
+            layer.rays > 0 ? kLeastVariance * sum / static_cast<double>(layer.rays) : 0.0;
         for (int cell = 0; cell < cells; ++cell) {
             const double all = m.energy(layer, channel, cell);
             const double energy = light == FitLight::All ? all : m.energy(layer, 0, channel, cell);
@@ -36,8 +45,10 @@ detail::LayerEnergies energies_of(const Measurement& m, const Layer& layer, FitL
             if (layer.stderr_energy.empty()) continue;
             const double error = static_cast<double>(
                 layer.stderr_energy[static_cast<std::size_t>(channel * cells + cell)]);
-            values.variance.push_back(all > 0 ? error * error * energy / all : 0.0);
+            const double variance = all > 0 ? error * error * energy / all : 0.0;
+            values.variance.push_back(error > 0 ? std::max(variance, least * energy) : variance);
         }
+    }
     return values;
 }
 

@@ -45,6 +45,10 @@ ParamTable<FitSettings> fit_params() {
                          .metavar = "KEY[,KEY...]",
                          .absent = "none",
                          .doc = "more keys to set free, such as alpha_y"}),
+        field(&S::lambert, {.name = "lambert",
+                            .label = "Plus Lambert",
+                            .doc = "adds a diffuse part to each model, its albedo free: the key "
+                                   "lambert of the result"}),
         field(
             &S::light, kLights,
             {.name = "light",

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kLongRange = 100;  ///< ratio of its ends, or its upper end
 constexpr double kSearchLow = 0.02, kSearchHigh = 20;
+constexpr double kVerySmall = 1e-6;  ///< ranges that begin below are searched from here on
 
 const BsdfParam* find_row(const BsdfModel& model, const std::string& key) {
     for (const BsdfParam& param : model.params)
@@ -129,7 +130,8 @@ double FreeParam::value(double u) const {
 }
 
 double FreeParam::search_low() const {
-    return low > 0 && high > kLongRange * low ? coordinate(std::max(low, kSearchLow)) : lowest();
+    const double least = low < kVerySmall ? kVerySmall : kSearchLow;
+    return low > 0 && high > kLongRange * low ? coordinate(std::max(low, least)) : lowest();
 }
 
 double FreeParam::search_high() const {

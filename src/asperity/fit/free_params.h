@@ -30,7 +30,8 @@ struct FreeParam {
     double value(double coordinate) const;
     double lowest() const { return coordinate(low); }
     double highest() const { return coordinate(high); }
-    /// Where a search begins: within these, 0.02 .. 20 of a long range.
+    /// Where a search begins: within these, 0.02 .. 20 of a long range, 1e-6 .. 20 of one that
+    /// begins below a millionth.
     double search_low() const;
     double search_high() const;
 };

@@ -16,9 +16,17 @@ double beyond_noise(const Fit& fit) {
     return std::sqrt(std::max(0.0, fit.mean_l1 * fit.mean_l1 - fit.mean_noise * fit.mean_noise));
 }
 
+/// A share in words, to two digits: "0.52 %", "37 %", "100 %", "more than 100 %".
+std::string percent(double share) {
+    constexpr double kRoundsToMore = 1.005, kWhole = 0.0995;
+    if (share >= kRoundsToMore) return "more than 100 %";
+    return share >= kWhole ? fmt::format("{:.0f} %", 100 * share)
+                           : fmt::format("{:.2g} %", 100 * share);
+}
+
 std::string with_misfit(const Fit& fit) {
-    std::string text = fmt::format("{} (L1 of f cos {:.2g} %", fit.text, 100 * fit.mean_l1);
-    if (!std::isnan(fit.chi2_per_dof)) text += fmt::format(", chi2/dof {:.3g}", fit.chi2_per_dof);
+    std::string text = fmt::format("{} (L1 of f cos {}", fit.text, percent(fit.mean_l1));
+    if (!std::isnan(fit.chi2_per_dof)) text += ", chi2/dof " + figure_of(fit.chi2_per_dof, 3);
     return text + ")";
 }
 
@@ -31,6 +39,13 @@ std::string list(const std::vector<const Fit*>& fits) {
 }
 
 }  // namespace
+
+std::string figure_of(double value, int digits) {
+    constexpr double kFromHereDigitsStayWhole = 1e3, kUnreadable = 1e9;
+    return value >= kFromHereDigitsStayWhole && value < kUnreadable
+               ? fmt::format("{:.0f}", value)
+               : fmt::format("{:.{}g}", value, digits);
+}
 
 FitGrade grade(const Fit& fit) {
     if (fit.chi2_per_dof <= kWithinErrors) return FitGrade::WithinErrors;

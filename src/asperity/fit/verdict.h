@@ -20,4 +20,8 @@ FitGrade grade(const Fit& fit);
 /// A sentence or two on fits, best first: whether one describes the data, and which do not.
 std::string verdict_of(const std::vector<Fit>& fits);
 
+/// A figure to so many digits, without an exponent from a thousand to a thousand millions:
+/// "1.04", "12345".
+std::string figure_of(double value, int digits);
+
 }  // namespace asperity

@@ -31,6 +31,11 @@ std::map<std::string, std::string> ggx_keys(const ExportSource& source) {
         const std::size_t equals = piece.find('=');
         keys.emplace(piece.substr(0, equals), piece.substr(equals + 1));
     }
+    if (keys.contains("lambert"))
+        throw Error(ErrorCode::Usage,
+                    "materialx takes ggx without lambert: OpenPBR has the diffuse part of a "
+                    "dielectric under its facets, dimmed by them, and none of a metal",
+                    "format");
     return keys;
 }
 
