@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "completion.h"
 
-#include "render_options.h"
+#include "option_names.h"
 
-#include <asperity/bsdf/bsdf_models.h>
-#include <asperity/fit/fit.h>
 #include <asperity/formats/bsdfs/bsdf_format.h>
-#include <asperity/formats/heights/heights_format.h>
-#include <asperity/gonio/experiment_params.h>
-#include <asperity/optics/materials.h>
-#include <asperity/plots/files/plot_file_params.h>
-#include <asperity/plots/plot_settings.h>
-#include <asperity/surface/surface_kinds.h>
 #include <fmt/format.h>
 
 #include <string>
@@ -22,46 +14,6 @@ namespace asperity::cli {
 namespace {
 
 using Words = std::vector<std::string>;
-
-template <typename Settings>
-Words choices_in(const ParamTable<Settings>& table, const std::string& name) {
-    const Param<Settings>* param = find(table, name);
-    return param ? param->info.choices : Words();
-}
-
-/// What an option may be, beside files: the names its table or registry has.
-Words names_for(const CLI::App& verb, const std::string& option) {
-    Words names;
-    const io::BsdfFormats bsdfs;
-    const io::HeightsFormats heights;
-    if (option == "surface" || option == "spec")
-        for (const SurfaceKind& kind : surface_kinds()) names.push_back(kind.name);
-    else if (option == "material")
-        for (const TabulatedMaterial& material : materials()) names.emplace_back(material.symbol);
-    else if (option == "brdf" || option == "reference")
-        for (const BsdfModel& model : bsdf_models()) names.push_back(model.name);
-    else if (option == "format" && verb.get_name() == "export")
-        for (const io::BsdfFormat& format : bsdfs.rows())
-            if (format.write) names.push_back(format.name);
-    if (names.empty() && option == "format" && verb.get_option_no_throw("--surface"))
-        for (const io::HeightsFormat& format : heights.rows())
-            if (format.open) names.push_back(format.name);
-    if (verb.get_name() == "plot") {
-        if (option == "subjects")
-            for (const BsdfModel& model : bsdf_models()) names.push_back(model.name);
-        if (names.empty()) names = choices_in(plots::plot_params(), option);
-        if (names.empty()) names = choices_in(plots::plot_file_params(), option);
-        return names;
-    }
-    if (names.empty()) names = choices_in(experiment_params(), option);
-    if (names.empty() && verb.get_name() == "fit") names = choices_in(fit_params(), option);
-    if (names.empty() && verb.get_name() == "plot")
-        names = choices_in(plots::plot_params(), option);
-    if (names.empty() && verb.get_name() == "plot")
-        names = choices_in(plots::plot_file_params(), option);
-    if (names.empty() && verb.get_option_no_throw("--tonemap")) names = render_names(option);
-    return names;
-}
 
 bool takes_value(const CLI::Option& option) {
     return option.get_items_expected_max() > 0;
@@ -74,6 +26,17 @@ bool takes_file(const CLI::Option& option) {
     return false;
 }
 
+/// The names, and those of formats with each setting they have: "rgl", "rgl:colour=".
+Words words_for(const CLI::App& verb, const std::string& option) {
+    Words words = names_for(verb, option);
+    if (option != "format" || verb.get_name() != "export") return words;
+    const io::BsdfFormats formats;
+    for (const io::BsdfFormat& format : formats.rows())
+        for (const io::FormatOption& setting : format.options)
+            if (format.write) words.push_back(fmt::format("{}:{}=", format.name, setting.name));
+    return words;
+}
+
 /// All spellings of an option, with their dashes.
 Words spellings(const CLI::Option& option) {
     Words all;
@@ -83,7 +46,7 @@ Words spellings(const CLI::Option& option) {
 }
 
 std::string key_of(const CLI::Option& option) {
-    return option.get_positional()       ? option.get_name()
+    return option.get_positional()       ? option.get_single_name()
            : option.get_lnames().empty() ? ""
                                          : option.get_lnames().front();
 }
@@ -104,7 +67,7 @@ std::string bash_verb(const CLI::App& verb) {
     Words options, own;
     bool files = false;
     for (const CLI::Option* option : verb.get_options()) {
-        const Words names = names_for(verb, key_of(*option));
+        const Words names = words_for(verb, key_of(*option));
         if (option->get_positional()) {
             own.insert(own.end(), names.begin(), names.end());
             files = files || takes_file(*option);
@@ -144,11 +107,12 @@ std::string zsh_text(const std::string& text) {
 }
 
 std::string zsh_action(const Words& names, bool file) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : " ") + zsh_text(name);
     if (file && !names.empty())
-        return fmt::format("{{_alternative \"names:name:({})\" \"files:file:_files\"}}",
-                           fmt::join(names, " "));
+        return fmt::format("{{_alternative \"names:name:({})\" \"files:file:_files\"}}", list);
     if (file) return "_files";
-    return names.empty() ? " " : fmt::format("({})", fmt::join(names, " "));
+    return names.empty() ? " " : "(" + list + ")";
 }
 
 std::string zsh_verb(const CLI::App& verb) {
@@ -156,7 +120,7 @@ std::string zsh_verb(const CLI::App& verb) {
     for (const CLI::Option* option : verb.get_options()) {
         const std::string metavar = zsh_text(option->get_type_name());
         const std::string action =
-            zsh_action(names_for(verb, key_of(*option)), takes_file(*option));
+            zsh_action(words_for(verb, key_of(*option)), takes_file(*option));
         if (option->get_positional()) {
             text += fmt::format(" \\\n                '*:{}:{}'", metavar, action);
             continue;
@@ -177,13 +141,34 @@ std::string bash_completion(const CLI::App& program) {
     std::string text = fmt::format(
         "# Completion of asperity, made by asperity reference --format bash\n"
         "_asperity() {{\n"
-        "    local cur=\"${{COMP_WORDS[COMP_CWORD]}}\" prev=\"${{COMP_WORDS[COMP_CWORD-1]}}\"\n"
+        "    local k word typed=\"${{COMP_WORDS[COMP_CWORD]}}\" words=()\n"
+        "    # bash parts words at : and =, rgl:n=64 is one here\n"
+        "    for ((k = 0; k <= COMP_CWORD; k++)); do\n"
+        "        word=\"${{COMP_WORDS[k]}}\"\n"
+        "        if [ $k -gt 1 ] && [[ \"$word\" == [:=]* || \"${{words[-1]}}\" == *[:=] ]]; then\n"
+        "            words[-1]+=\"$word\"\n"
+        "        else\n"
+        "            words+=(\"$word\")\n"
+        "        fi\n"
+        "    done\n"
+        "    local cur=\"${{words[-1]}}\" prev=\"${{words[-2]}}\"\n"
         "    COMPREPLY=()\n"
         "    if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
         "        COMPREPLY=($(compgen -W '{0} --help --version' -- \"$cur\"))\n"
         "        return\n"
         "    fi\n"
-        "    case \"${{COMP_WORDS[1]}}\" in\n",
+        "    _asperity_replies \"${{words[1]}}\" \"$cur\" \"$prev\"\n"
+        "    # What stands before the part that bash replaces is not said again\n"
+        "    [[ \"$typed\" == [:=] ]] && typed=\n"
+        "    local before=\"${{cur%\"$typed\"}}\"\n"
+        "    for k in \"${{!COMPREPLY[@]}}\"; do COMPREPLY[k]=\"${{COMPREPLY[k]#\"$before\"}}\"; "
+        "done\n"
+        "    [[ \"${{COMPREPLY[0]}}\" == *= ]] && compopt -o nospace 2> /dev/null\n"
+        "    return 0\n"
+        "}}\n"
+        "_asperity_replies() {{\n"
+        "    local cur=\"$2\" prev=\"$3\"\n"
+        "    case \"$1\" in\n",
         fmt::join(verb_names(program), " "));
     for (const CLI::App* verb : program.get_subcommands({})) text += bash_verb(*verb);
     return text + "    esac\n}\ncomplete -o filenames -F _asperity asperity\n";

@@ -4,8 +4,10 @@
 #include "console.h"
 #include "file_kind.h"
 #include "help.h"
+#include "option_value.h"
 #include "options.h"
 #include "output_path.h"
+#include "picture_names.h"
 #include "report_json.h"
 #include "verbs.h"
 
@@ -16,7 +18,6 @@
 #include <asperity/formats/bsdfs/fidelity.h>
 #include <asperity/formats/bsdfs/snippets.h>
 #include <asperity/formats/results/result_file.h>
-#include <asperity/params/suggest.h>
 #include <asperity/pictures/pictures.h>
 
 #include <fmt/format.h>
@@ -40,21 +41,6 @@ constexpr const char* kClosing =
     "  asperity export ggx:alpha=0.3 -o ggx.bsdf --format rgl:colour=spectral\n"
     "  asperity export metal.asperity -o pictures/      (a PNG per layer and sheet.png)\n"
     "  asperity export metal.asperity -o sheet.png --projection disk --colour-map viridis\n";
-
-/// The value a name stands for; throws Error(Usage, option) listing the names there are.
-template <typename Value>
-Value choose(const std::string& option, const std::string& name,
-             std::initializer_list<std::pair<const char*, Value>> choices) {
-    std::vector<std::string> names;
-    for (const auto& [known, value] : choices) {
-        if (name == known) return value;
-        names.emplace_back(known);
-    }
-    throw Error(ErrorCode::Usage,
-                fmt::format("'{}' is none of {}{}", name, fmt::join(names, ", "),
-                            did_you_mean(name, names)),
-                option);
-}
 
 class ExportVerb {
   public:
@@ -273,18 +259,12 @@ class ExportVerb {
 
     io::SkyMapSettings look_of_options() const {
         io::SkyMapSettings look;
-        look.colour_map = choose<io::ColourMap>("colour-map", text_of(colour_map_, "inferno"),
-                                                {{"viridis", io::ColourMap::Viridis},
-                                                 {"inferno", io::ColourMap::Inferno},
-                                                 {"grey", io::ColourMap::Grey},
-                                                 {"thesis-red", io::ColourMap::ThesisRed}});
-        look.scale = choose<io::Scale>("scale", text_of(scale_, "log"),
-                                       {{"log", io::Scale::Log}, {"linear", io::Scale::Linear}});
-        look.projection = choose<io::Projection>(
-            "projection", text_of(projection_, "sky-map"),
-            {{"sky-map", io::Projection::SkyMap}, {"disk", io::Projection::Disk}});
-        look.light =
-            choose<bool>("theme", text_of(theme_, "dark"), {{"dark", false}, {"light", true}});
+        look.colour_map =
+            OptionValue("colour-map", text_of(colour_map_, "inferno")).choice(kColourMaps);
+        look.scale = OptionValue("scale", text_of(scale_, "log")).choice(kScales);
+        look.projection =
+            OptionValue("projection", text_of(projection_, "sky-map")).choice(kProjections);
+        look.light = OptionValue("theme", text_of(theme_, "dark")).choice(kThemes);
         look.own_scales = own_scales_;
         look.decades = parse_positive("decades", text_of(decades_, "4"));
         constexpr double kMostDecades = 30;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "leftovers.h"
 
+#include "swapped.h"
+
 #include <asperity/bsdf/spec.h>
 #include <asperity/core/error.h>
 #include <asperity/core/parse_number.h>
@@ -62,6 +64,8 @@ std::string meaning(const CLI::App& verb, const std::string& word) {
         return "; did you mean --surface " + word + "?";
     if (has("brdf") && (is_brdf_spec(word) || exists(word)))
         return "; did you mean --brdf " + word + "?";
+    const std::string symbol = material_called(word);
+    if (has("material") && !symbol.empty()) return "; did you mean --material " + symbol + "?";
     if (parse_double(word)) return "; the numbers of one option stand together: 0,30,60";
     if (word == "percent" || word == "%") return "; it stands behind its number: 1%";
     if (has(bare(word).c_str())) return "; did you mean --" + bare(word) + "?";

@@ -3,6 +3,7 @@
 #include "console.h"
 #include "help.h"
 #include "leftovers.h"
+#include "swapped.h"
 #include "verbs.h"
 
 #include <asperity/core/error.h>
@@ -84,7 +85,11 @@ int run_program(int argc, char** argv) {
     refuse_leftovers(program);
     const auto chosen = std::find_if(verbs.begin(), verbs.end(),
                                      [](const Verb& verb) { return verb.app->parsed(); });
-    return chosen->run();
+    try {
+        return chosen->run();
+    } catch (const Error& error) {
+        throw with_cure_of_swap(*chosen->app, error);
+    }
 }
 
 }  // namespace

@@ -47,6 +47,36 @@ MISTAKES = [
     ("render --brdf cook-torance:roughness=0.3 -o a.png", 4, "did you mean cook-torrance?"),
     ("render --brdf ggx:alfa=0.3 -o a.png", 2, "did you mean alpha?"),
     ("export metal.asperity -o x.png --colour-map virids", 2, "did you mean viridis?"),
+    # a name that belongs elsewhere
+    ("simulate --fresnel Au", 2, "did you mean --material Au?"),
+    ("simulate --fresnel gold", 2, "did you mean --material Au?"),
+    ("simulate --fresnel 0.04", 2, "did you mean --f0 0.04?"),
+    ("simulate --material conductor", 2, "did you mean --fresnel conductor?"),
+    ("simulate --material 1.5", 2, "did you mean --ior 1.5?"),
+    ("simulate --ior Au", 2, "did you mean --material Au?"),
+    ("simulate --surface Au", 2, "did you mean --material Au?"),
+    ("simulate --surface ggx:alpha=0.3,material=Au", 2, "did you mean --material Au?"),
+    ("surface ggx:alpha=0.3,material=Au", 2, "asperity simulate takes it: --material Au"),
+    ("simulate --material heights.gsf", 2, "did you mean --surface heights.gsf?"),
+    ("simulate --detector gaussian", 2, "did you mean --surface gaussian?"),
+    ("simulate --config gaussian", 4, "did you mean --surface gaussian?"),
+    ("gloss Au", 2, "did you mean --material Au?"),
+    ("render --brdf Au -o a.png", 4, "--brdf ggx:alpha=0.3,material=Au"),
+    ("render --brdf gaussian:alpha=0.3 -o a.png", 4,
+     "asperity simulate --surface gaussian:alpha=0.3"),
+    ("render --model ggx:alpha=0.3 -o a.png", 2, "did you mean --brdf ggx:alpha=0.3?"),
+    ("render --light sphere -o a.png", 2, "did you mean --model sphere?"),
+    ("fit gaussian", 4, "asperity simulate --surface gaussian"),
+    ("fit metal.asperity --model Au", 2, "--model ggx:material=Au"),
+    ("fit metal.asperity --model chi2", 2, "did you mean --metric chi2?"),
+    ("fit metal.asperity --metric ggx", 2, "did you mean --model ggx?"),
+    ("fit metal.asperity --reflectance schlick", 2, "did you mean f0?"),
+    ("export metal.asperity -o x.bsdf --format mitsuba", 2, "did you mean rgl or merl?"),
+    ("export metal.asperity -o x.xml --format bsdf", 2, "did you mean rgl or zemax or lighttools?"),
+    ("export metal.asperity -o x.png --scale viridis", 2, "did you mean --colour-map viridis?"),
+    ("export gaussian -o x.bsdf", 4, "asperity simulate --surface gaussian"),
+    ("compare metal.asperity Au", 4, "ggx:alpha=0.3,material=Au"),
+    ("info ggx:alpha=0.3", 4, "compare, export, fit, plot and render take models"),
     # a unit, a number
     ("simulate --theta 30deg", 2, "write 30, it is taken in degrees"),
     ("simulate --theta 90", 2, "below 90 degrees"),
@@ -157,8 +187,20 @@ class Manual(ProgramTest):
         self.assertEqual(self.complete("asperity", "simulate", "--detector", "eq"), {"equal-area"})
         self.assertLessEqual({"lobe", "albedo", "psd"},
                              self.complete("asperity", "plot", "--kind", ""))
+        self.assertEqual(self.complete("asperity", "export", "--colour-map", "v"), {"viridis"})
+        self.assertEqual(self.complete("asperity", "export", "--projection", ""),
+                         {"sky-map", "disk"})
+        self.assertEqual(self.complete("asperity", "fit", "--model", "a"), {"abg"})
+        formats = self.complete("asperity", "export", "x", "--format", "")
+        self.assertLessEqual({"rgl", "merl", "klems", "rgl:colour=", "klems:basis="}, formats)
+        # bash parts words at the colon, of which it replaces what stands behind
+        parted = self.complete("asperity", "export", "x", "--format", "rgl", ":", "c")
+        self.assertEqual(parted, {"colour="})
+        self.assertLessEqual({"colour=", "n=", "theta="},
+                             self.complete("asperity", "export", "x", "--format", "rgl", ":"))
         with open("gauge.gsf", "w", encoding="utf-8"):
             pass
+        self.assertEqual(self.complete("asperity", "surface", "vg"), {"vgroove"})
         self.assertEqual(self.complete("asperity", "simulate", "--surface", "ga"),
                          {"gaussian", "gauge.gsf"})
 
@@ -188,6 +230,9 @@ class Manual(ProgramTest):
         simulate = {line.split("[")[0]: line for line in told("asperity", "simulate")}
         self.assertTrue(simulate["--material"].endswith(":NAME:(Ag Al Au Cr Cu Fe Ni Ti)"))
         self.assertIn("files:file:_files", simulate["--surface"])
+        export = {line.split("[")[0]: line for line in told("asperity", "export")}
+        self.assertIn(r" rgl\:colour= ", export["--format"])
+        self.assertTrue(export["--scale"].endswith(":NAME:(log linear)"))
 
 
 if __name__ == "__main__":

@@ -261,7 +261,7 @@ void ModelChoicesTest::sessions_refuse_data() {
     QTest::addColumn<QString>("line");
     QTest::addColumn<QString>("why");
     const auto row = [](const char* line, const char* why) { QTest::newRow(line) << line << why; };
-    const QString models = "lambert, cook-torrance, ggx, beckmann, student-t, velvet";
+    const QString models = "lambert, cook-torrance, ggx, beckmann, student-t, abg, velvet";
     QTest::newRow("type") << "brdf-type = phong"
                           << "brdf-type: 'phong' is none of " + models + ", simulated";
     QTest::newRow("model") << "brdf-models = phong:n=3"

@@ -5,7 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <initializer_list>
+#include <utility>
 
 namespace asperity::io {
 namespace {
@@ -59,28 +62,57 @@ Shape "sphere"
 )";
 
 // Thickness 0, the file, the direction that is up, no function file.
-constexpr const char* kRadianceScene = R"(void BSDF {1}
+constexpr const char* kRadianceScene = R"(void BSDF measured
 6 0 {0} 0 0 1 .
 0
 0
 
-{1} sphere {1}_ball
+measured sphere measured_ball
 0
 0
 4 0 0 0 1
 )";
 
+/// With each of some characters put in other words.
+std::string escaped(const std::string& name,
+                    std::initializer_list<std::pair<char, const char*>> words) {
+    std::string text;
+    for (const char c : name) {
+        const auto* const found =
+            std::find_if(words.begin(), words.end(), [c](const auto& w) { return w.first == c; });
+        text += found == words.end() ? std::string(1, c) : found->second;
+    }
+    return text;
+}
+
+std::string in_xml(const std::string& name) {
+    return escaped(name, {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}});
+}
+
+/// Between double quotes, of Python or pbrt.
+std::string in_string(const std::string& name) {
+    return escaped(name, {{'"', "\\\""}, {'\\', "\\\\"}});
+}
+
+/// Radiance parts words at spaces unless they stand between quotes.
+std::string in_radiance(const std::string& name) {
+    return name.find(' ') == name.npos ? name : '"' + name + '"';
+}
+
 struct Snippet {
     const char* ending;
     const char* text;
+    std::string (*name)(const std::string& name);  ///< of a file, as the snippet's language has it
 };
 
 std::vector<Snippet> snippets_of(const std::string& format, bool spectral) {
     std::vector<Snippet> snippets;
     if (format == "rgl")
-        snippets = {{"_mitsuba.xml", kMitsubaScene}, {"_mitsuba.py", kMitsubaScript}};
-    if (format == "rgl" && spectral) snippets.push_back({"_pbrt.pbrt", kPbrtScene});
-    if (format == "klems" || format == "tensortree") snippets = {{"_radiance.rad", kRadianceScene}};
+        snippets = {{"_mitsuba.xml", kMitsubaScene, in_xml},
+                    {"_mitsuba.py", kMitsubaScript, in_string}};
+    if (format == "rgl" && spectral) snippets.push_back({"_pbrt.pbrt", kPbrtScene, in_string});
+    if (format == "klems" || format == "tensortree")
+        snippets = {{"_radiance.rad", kRadianceScene, in_radiance}};
     return snippets;
 }
 
@@ -104,8 +136,8 @@ std::vector<std::string> write_snippets(const std::string& format, const FormatO
     std::vector<std::string> written;
     for (const Snippet& snippet : snippets_of(format, spectral)) {
         AtomicFile out((file.parent_path() / (stem + snippet.ending)).string());
-        out.write(fmt::format(fmt::runtime(snippet.text), file.filename().string(), stem,
-                              spectral ? "scalar_spectral" : "scalar_rgb"));
+        out.write(fmt::format(fmt::runtime(snippet.text), snippet.name(file.filename().string()),
+                              snippet.name(stem), spectral ? "scalar_spectral" : "scalar_rgb"));
         out.commit();
         written.push_back(out.path());
     }
