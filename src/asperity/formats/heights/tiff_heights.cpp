@@ -29,6 +29,7 @@ tmsize_t read_memory(thandle_t handle, void* to, tmsize_t count) {
     const std::uint64_t left =
         memory->bytes.size() - std::min<std::uint64_t>(memory->at, memory->bytes.size());
     const auto take = std::min<std::uint64_t>(left, static_cast<std::uint64_t>(count));
+    if (take == 0) return 0;  // there may be no bytes at all
     std::memcpy(to, memory->bytes.data() + memory->at, static_cast<std::size_t>(take));
     memory->at += take;
     return static_cast<tmsize_t>(take);
