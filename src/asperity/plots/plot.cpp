@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace asperity::plots {
 
@@ -39,7 +38,7 @@ std::string csv_text(const PlotTable& table) {
             text += comma;
             comma = ",";
             if (row < column.values.size() && std::isfinite(column.values[row]))
-                fmt::format_to(std::back_inserter(text), "{}", column.values[row]);
+                text += fmt::format("{}", column.values[row]);
         }
         text += '\n';
     }

@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 namespace asperity::io {
 namespace {
 
@@ -29,14 +27,14 @@ std::string rows_of(const Measurement& m, const Layer& layer) {
     std::string text;
     for (int cell = 0; cell < m.detector.cells(); ++cell) {
         const int row = cell / m.detector.columns(), column = cell % m.detector.columns();
-        fmt::format_to(
-            std::back_inserter(text), "{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}", layer.number,
-            degrees(layer.theta_i), degrees(layer.phi_i), degrees(m.detector.theta_centre(row)),
+        text += fmt::format(
+            "{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}", layer.number, degrees(layer.theta_i),
+            degrees(layer.phi_i), degrees(m.detector.theta_centre(row)),
             degrees(m.detector.phi_centre(column)), m.detector.projected_solid_angle(row));
         for (int c = 0; c < m.channels(); ++c)
-            fmt::format_to(std::back_inserter(text), ",{:.7g},{:.3g},{:.3g}",
-                           m.brdf(layer, c, cell), m.brdf_stderr(layer, c, cell),
-                           m.energy(layer, c, cell) * static_cast<double>(layer.rays));
+            text += fmt::format(",{:.7g},{:.3g},{:.3g}", m.brdf(layer, c, cell),
+                                m.brdf_stderr(layer, c, cell),
+                                m.energy(layer, c, cell) * static_cast<double>(layer.rays));
         text += '\n';
     }
     return text;

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iterator>
 #include <map>
 
 namespace asperity::io {
@@ -157,8 +156,8 @@ std::string block_text(const AngleTable& table, std::size_t theta, int channel, 
     const double* const f = &table.f[table.block(0, theta, channel)];
     for (std::size_t a = 0; a < table.azimuth.size(); ++a)
         for (std::size_t p = 0; p < table.polar.size(); ++p)
-            fmt::format_to(std::back_inserter(text), "{:.5g}{}", f[p * table.azimuth.size() + a],
-                           p + 1 < table.polar.size() ? " " : "\n");
+            text += fmt::format("{:.5g}{}", f[p * table.azimuth.size() + a],
+                                p + 1 < table.polar.size() ? " " : "\n");
     return text;
 }
 

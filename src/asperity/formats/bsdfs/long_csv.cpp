@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iterator>
 #include <optional>
 
 namespace asperity::io {
@@ -236,12 +235,11 @@ std::string lines_of(const AngleTable& table, double unit) {
             for (std::size_t n = 0; n < table.directions(); ++n) {
                 const double phi_o =
                     std::fmod(table.phi_i[p] + table.azimuth[n % table.azimuth.size()], 2 * kPi);
-                fmt::format_to(std::back_inserter(text), "{:.8g},{:.8g},{:.8g},{:.8g}",
-                               table.theta_i[t] * unit, table.phi_i[p] * unit,
-                               table.polar[n / table.azimuth.size()] * unit, phi_o * unit);
+                text += fmt::format("{:.8g},{:.8g},{:.8g},{:.8g}", table.theta_i[t] * unit,
+                                    table.phi_i[p] * unit,
+                                    table.polar[n / table.azimuth.size()] * unit, phi_o * unit);
                 for (int c = 0; c < table.channels; ++c)
-                    fmt::format_to(std::back_inserter(text), ",{:.6g}",
-                                   table.f[table.block(p, t, c) + n]);
+                    text += fmt::format(",{:.6g}", table.f[table.block(p, t, c) + n]);
                 text += '\n';
             }
     return text;

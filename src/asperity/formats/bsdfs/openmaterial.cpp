@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iterator>
 #include <map>
 
 namespace asperity::io {
@@ -67,12 +66,12 @@ std::string rows_text(const AngleTable& table, double wavelength, int channel) {
     std::string text;
     for (std::size_t t = 0; t < table.theta_i.size(); ++t)
         for (std::size_t n = 0; n < table.directions(); ++n)
-            fmt::format_to(std::back_inserter(text), "{}[{:.6g},{:.7g},{:.7g},{:.7g},{:.6g}]",
-                           text.empty() ? "\n" : ",\n", wavelength,
-                           std::min(table.theta_i[t], kMostTheta),
-                           std::min(table.polar[n / table.azimuth.size()], kMostTheta),
-                           std::min(table.azimuth[n % table.azimuth.size()], kMostPhi),
-                           table.f[table.block(0, t, channel) + n]);
+            text +=
+                fmt::format("{}[{:.6g},{:.7g},{:.7g},{:.7g},{:.6g}]", text.empty() ? "\n" : ",\n",
+                            wavelength, std::min(table.theta_i[t], kMostTheta),
+                            std::min(table.polar[n / table.azimuth.size()], kMostTheta),
+                            std::min(table.azimuth[n % table.azimuth.size()], kMostPhi),
+                            table.f[table.block(0, t, channel) + n]);
     return text;
 }
 
@@ -107,14 +106,14 @@ BsdfFormat::Remarks write(const ExportSource& source, const FormatOptions& optio
     return remarks;
 }
 
-double number_in(const nlohmann::json& row, std::size_t k, const std::string& path) {
+double number_in(const nlohmann::ordered_json& row, std::size_t k, const std::string& path) {
     if (!row.is_array() || row.size() != 5 || !row[k].is_number())
         throw Error(ErrorCode::InvalidInput, "a row of lookupTable is not of five numbers", path);
     return row[k].get<double>();
 }
 
 /// Rows of all wavelengths together; red, that is the longest, first where there are three.
-std::vector<AngleRow> rows_of(const nlohmann::json& list, const std::string& path) {
+std::vector<AngleRow> rows_of(const nlohmann::ordered_json& list, const std::string& path) {
     std::map<double, std::size_t> channels;
     for (const auto& row : list) channels.emplace(number_in(row, 0, path), 0);
     std::size_t next = 0;
@@ -138,9 +137,9 @@ std::vector<AngleRow> rows_of(const nlohmann::json& list, const std::string& pat
 
 std::unique_ptr<Bsdf> read(const std::string& path) {
     constexpr std::uint64_t kLargest = 1u << 30;
-    const auto json = nlohmann::json::parse(read_text_file(path, kLargest), nullptr, false);
+    const auto json = nlohmann::ordered_json::parse(read_text_file(path, kLargest), nullptr, false);
     if (json.is_discarded()) throw Error(ErrorCode::InvalidInput, "is no JSON", path);
-    const nlohmann::json::json_pointer place("/brdf/lookupTable");
+    const nlohmann::ordered_json::json_pointer place("/brdf/lookupTable");
     if (!json.is_object() || !json.contains(place) || !json.at(place).is_array())
         throw Error(ErrorCode::InvalidInput, "has no brdf with a lookupTable", path);
     return make_table_bsdf(table_of_rows(rows_of(json.at(place), path), path),

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iterator>
 
 namespace asperity::io {
 namespace {
@@ -150,9 +149,9 @@ std::string block_text(const AngleTable& table, std::size_t phi, std::size_t the
     text += list(table.azimuth, true);
     const double* const f = &table.f[table.block(phi, theta, channel)];
     for (std::size_t p = 0; p < table.polar.size(); ++p) {
-        fmt::format_to(std::back_inserter(text), "{:.6g}", degrees(table.polar[p]));
+        text += fmt::format("{:.6g}", degrees(table.polar[p]));
         for (std::size_t a = 0; a < columns; ++a)
-            fmt::format_to(std::back_inserter(text), "\t{:.6g}", f[p * columns + a] / unit);
+            text += fmt::format("\t{:.6g}", f[p * columns + a] / unit);
         text += '\n';
     }
     return text;

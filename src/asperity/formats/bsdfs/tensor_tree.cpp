@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace asperity::io {
 namespace {
@@ -176,8 +175,7 @@ void TensorTree::append_text(std::size_t index, std::string& text) const {
     const Node& node = nodes_[index];
     text += '{';
     for (const std::size_t child : node.branch) append_text(child, text);
-    for (const double value : node.values)
-        fmt::format_to(std::back_inserter(text), " {:.5g}", value);
+    for (const double value : node.values) text += fmt::format(" {:.5g}", value);
     text += node.branch.empty() ? " }\n" : "}\n";
 }
 

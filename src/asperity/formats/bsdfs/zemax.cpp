@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iterator>
 
 namespace asperity::io {
 namespace {
@@ -117,9 +116,8 @@ std::string data_text(const AngleTable& table, int channel) {
             const double* const f = &table.f[table.block(p, t, channel)];
             for (std::size_t a = 0; a < table.azimuth.size(); ++a)
                 for (std::size_t r = 0; r < table.polar.size(); ++r)
-                    fmt::format_to(std::back_inserter(text), "{:.4E}{}",
-                                   f[r * table.azimuth.size() + a],
-                                   r + 1 < table.polar.size() ? "\t" : "\r\n");
+                    text += fmt::format("{:.4E}{}", f[r * table.azimuth.size() + a],
+                                        r + 1 < table.polar.size() ? "\t" : "\r\n");
         }
     return text + "DataEnd\r\n";
 }

@@ -8,7 +8,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <iterator>
 
 namespace asperity::io {
 namespace {
@@ -16,8 +15,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 void append_triple(std::string& text, const char* what, Vec3f v) {
-    fmt::format_to(std::back_inserter(text), "{} {} {} {}\n", what, shortest(v.x), shortest(v.y),
-                   shortest(v.z));
+    text += fmt::format("{} {} {} {}\n", what, shortest(v.x), shortest(v.y), shortest(v.z));
 }
 
 template <typename Number>
@@ -45,9 +43,9 @@ void write_obj(const TriangleMesh& mesh, const std::string& path) {
             // Indices count from 1; a vertex and its normal have the same.
             const std::uint64_t index = std::uint64_t{v} + 1;
             if (mesh.normals.empty())
-                fmt::format_to(std::back_inserter(text), " {}", index);
+                text += fmt::format(" {}", index);
             else
-                fmt::format_to(std::back_inserter(text), " {}//{}", index, index);
+                text += fmt::format(" {}//{}", index, index);
         }
         text += '\n';
     }
