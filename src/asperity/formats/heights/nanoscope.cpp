@@ -209,7 +209,7 @@ class File {
         const std::string unit = soft.hard->unit.substr(0, stroke);
         const std::string per =
             soft.hard->unit.substr(std::min(stroke + 1, soft.hard->unit.size()));
-        image.other = "in " + in_quotes(unit);
+        if (!unit.empty()) image.other = "in " + in_quotes(unit);
         image.step =
             z.hard->value / full * ratio(z.hard->unit, per) * soft.hard->value * metres(unit);
         if (image.step != 0 && std::isfinite(image.step)) image.other.clear();
