@@ -140,4 +140,9 @@ Measurement load_result(const std::string& path) {
     return io::load_measurement(path);
 }
 
+io::ResultHead load_result_head(const std::string& path) {
+    require_kind(path, FileKind::Result);
+    return io::load_head(path);
+}
+
 }  // namespace asperity::cli

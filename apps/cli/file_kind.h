@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/measurement.h>
 
 #include <string>
@@ -23,5 +24,7 @@ std::string did_you_mean_file(const std::string& path);
 
 /// A result of asperity simulate. Throws what require_kind and io::load_measurement throw.
 Measurement load_result(const std::string& path);
+/// The same without its cells: io::load_head.
+io::ResultHead load_result_head(const std::string& path);
 
 }  // namespace asperity::cli

@@ -18,6 +18,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 
 namespace asperity::cli {
 
@@ -32,9 +33,10 @@ constexpr const char* kClosing =
     "  asperity info metal.asperity --config > run.txt\n"
     "  asperity simulate --config run.txt -o again.asperity    (the same checksum)\n";
 
-std::string text_of_result(const Measurement& m, const std::string& path) {
+std::string text_of_result(const io::ResultHead& result, const std::string& path) {
+    const Measurement& m = result.measurement;
     std::string text =
-        fmt::format("{}: asperity {}, checksum {}\n", path, m.version, io::checksum(m));
+        fmt::format("{}: asperity {}, checksum {}\n", path, m.version, result.checksum);
     text +=
         "surface: " + surface_line(m.experiment.surface, m.surface, m.surface_nx, m.surface_ny) +
         "\n";
@@ -140,6 +142,11 @@ Json json_of_region(const Measurement& m, const std::string& asked) {
             {"layers", layers}};
 }
 
+io::ResultHead whole_of(Measurement m) {
+    std::string checksum = io::checksum(m);
+    return {std::move(m), std::move(checksum)};
+}
+
 class InfoVerb {
   public:
     explicit InfoVerb(CLI::App& app) {
@@ -162,15 +169,17 @@ class InfoVerb {
         const bool region = region_->count() > 0;
         if (region && config_)
             throw Error(ErrorCode::Usage, "a --config file has no --region", "region");
-        const Measurement m = load_result(text_of(file_));
+        const std::string path = text_of(file_);
+        const io::ResultHead result = region ? whole_of(load_result(path)) : load_result_head(path);
+        const Measurement& m = result.measurement;
         if (json_) {
-            Json json = to_json(m, io::checksum(m));
+            Json json = to_json(m, result.checksum);
             if (region) json["region"] = json_of_region(m, text_of(region_));
             write_json(json);
         } else if (region) {
             write_out(text_of_region(m, text_of(region_)));
         } else {
-            write_out(config_ ? to_text(m.experiment) : text_of_result(m, text_of(file_)));
+            write_out(config_ ? to_text(m.experiment) : text_of_result(result, path));
         }
         return 0;
     }

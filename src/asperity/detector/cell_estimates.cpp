@@ -23,13 +23,45 @@ struct Arrivals {
     double each() const { return hits > 0 ? energy / hits : 0.0; }
 };
 
+/// ln((n + k) / n), to the same bits with every mathematics library: result files make errors
+/// again. Sums, products and quotients alone, with one rounding each (-ffp-contract=off).
+double log_of_ratio(double n, double k) {
+    // n * 2^e is nearest to n + k, and ln(a / b) = 2 artanh((a - b) / (a + b))
+    constexpr double kLn2 = 0x1.62e42fefa39efp-1;
+    int e = 0;
+    double near = n;
+    while (n + k > 1.5 * near) near *= 2, ++e;
+    const double z = e == 0 ? k / (2 * n + k) : (n + k - near) / (n + k + near);
+    double sum = 0;
+    for (int power = 31; power > 0; power -= 2) sum = sum * z * z + 1.0 / power;
+    return e * kLn2 + 2 * z * sum;
+}
+
 /// Hits by which `reached` of so many batches got one at least: Poisson's law. If all did, there
 /// are as many as half a batch less would tell, or more: no ray brings more than its energy.
 double hits_of(double reached, double batches, double energy) {
     const double most = batches - 0.5;
-    const double hits = -batches * std::log1p(-std::min(reached, most) / batches);
+    const double got = std::min(reached, most);
+    const double hits = batches * log_of_ratio(batches - got, got);
     return reached > most ? std::max(hits, energy / static_cast<double>(kRayEnergy)) : hits;
 }
+
+/// hits_of() without energy, most often from a table.
+class Hits {
+  public:
+    explicit Hits(double batches) : batches_(batches) {
+        for (double reached = 0; reached <= std::min(batches, 1024.0); ++reached)
+            few_.push_back(hits_of(reached, batches, 0));
+    }
+    double of(std::uint32_t reached, double energy) const {
+        if (reached < few_.size() && reached < batches_) return few_[reached];
+        return hits_of(reached, batches_, energy);
+    }
+
+  private:
+    double batches_;
+    std::vector<double> few_;
+};
 
 /// One value of one side, as rows of cells.
 class Cells {
@@ -39,14 +71,14 @@ class Cells {
           of_cell_(sums.shape.cells),
           exact_(of_cell_.size()),
           often_(exact_) {
-        const double batches = static_cast<double>(sums.batches());
+        const std::uint64_t batches = sums.batches();
+        const Hits hits(static_cast<double>(batches));
         const std::size_t values = sums.shape.values();
         for (std::size_t c = 0; c < of_cell_.size(); ++c) {
             const std::size_t k = (side * sums.shape.cells + c) * values + value;
             const double energy = static_cast<double>(sums.followed(k));
-            const auto reached = static_cast<double>(sums.reached[k]);
-            of_cell_[c] = {hits_of(reached, batches, energy), energy};
-            often_[c] = sums.reached[k] == sums.batches() && of_cell_[c].hits >= kMany;
+            of_cell_[c] = {hits.of(sums.reached[k], energy), energy};
+            often_[c] = sums.reached[k] == batches && of_cell_[c].hits >= kMany;
             exact_[c] = !sums.exact.empty() && sums.exact[k] > 0;
         }
         add_up_rows();

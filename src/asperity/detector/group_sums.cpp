@@ -27,12 +27,21 @@ void GroupSums::add(const SumShape& shape, std::size_t group, std::size_t first,
                     std::span<const std::uint64_t> energies) {
     const CoarseGrid grid(shape);
     const std::size_t values = shape.values();
-    for (std::size_t k = 0; k < energies.size(); ++k) {
-        if (energies[k] == 0) continue;
-        const std::size_t place = (first + k) / values, side = place / shape.cells;
-        const std::size_t block = grid.block_of(place % shape.cells);
-        energy[((group * shape.sides + side) * grid.blocks() + block) * values +
-               (first + k) % values] += energies[k];
+    // From one end of a block's row to the other, so that nothing is divided cell by cell
+    const std::uint64_t* next = energies.data();
+    std::size_t place = first / values;
+    const std::size_t end = place + energies.size() / values;
+    while (place < end) {
+        const std::size_t cell = place % shape.cells, column = cell % grid.columns;
+        const std::size_t in_block =
+            std::min(grid.width - column % grid.width, grid.columns - column);
+        const std::size_t count = std::min(in_block, end - place);
+        const std::size_t side = place / shape.cells;
+        std::uint64_t* sums =
+            &energy[((group * shape.sides + side) * grid.blocks() + grid.block_of(cell)) * values];
+        for (std::size_t n = 0; n < count; ++n)
+            for (std::size_t v = 0; v < values; ++v) sums[v] += *next++;
+        place += count;
     }
 }
 

@@ -39,7 +39,8 @@ struct GroupSums {
     /// Over all orders: [((group * sides + side) * blocks + block) * values + value].
     std::vector<std::uint64_t> energy;
 
-    /// Adds what came to places[k], k from `first` on: [place * values + value].
+    /// Adds what came to places in a row: energies[k] goes to `first` + k = place * values + value.
+    /// `first` and their number are multiples of the values.
     void add(const SumShape& shape, std::size_t group, std::size_t first,
              std::span<const std::uint64_t> energies);
     /// Adds what counts[group] rays spread.

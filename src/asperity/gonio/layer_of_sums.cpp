@@ -23,16 +23,25 @@ void for_places(const SumShape& shape, Work work) {
 /// The same for energies: in a Layer [((side * orders + order) * values + value) * cells + cell].
 template <class Work>
 void for_energies(const SumShape& shape, Work work) {
-    const std::size_t side_size = shape.cells * shape.values();
+    const std::size_t values = shape.values();
     for (std::size_t order = 0; order < shape.orders; ++order)
-        for_places(shape, [&](std::size_t out, std::size_t place) {
-            const std::size_t side = out / side_size;
-            work((side * shape.orders + order) * side_size + out % side_size,
-                 order * shape.sides * side_size + place);
-        });
+        for (std::size_t side = 0; side < shape.sides; ++side)
+            for (std::size_t cell = 0; cell < shape.cells; ++cell)
+                for (std::size_t v = 0; v < values; ++v)
+                    work(((side * shape.orders + order) * values + v) * shape.cells + cell,
+                         ((order * shape.sides + side) * shape.cells + cell) * values + v);
 }
 
 }  // namespace
+
+std::vector<float> errors_of(const LayerSums& sums) {
+    const std::vector<LayerSums::Estimate> cells = cell_estimates(sums);
+    std::vector<float> errors(cells.size());
+    for_places(sums.shape, [&](std::size_t out, std::size_t place) {
+        errors[out] = static_cast<float>(cells[place].error);
+    });
+    return errors;
+}
 
 Layer layer_of(const Incidence& light, const LayerSums& sums) {
     if (!sums.settled()) {
@@ -62,7 +71,7 @@ Layer layer_of(const Incidence& light, const LayerSums& sums) {
     for (std::size_t k = 0; k < sums.escaped_by_bounce.size(); ++k)
         layer.escaped[k / shape.bounces] += sums.escaped_by_bounce[k];
 
-    layer.stderr_energy.resize(sums.squares.size());
+    layer.stderr_energy = errors_of(sums);
     LayerSpread& spread = layer.spread;
     spread.done = sums.done;
     spread.largest_batch = sums.largest_batch;
@@ -72,9 +81,7 @@ Layer layer_of(const Incidence& light, const LayerSums& sums) {
     spread.halves.albedo = sums.halves.albedo;
     spread.exact.resize(sums.exact.size());
     spread.reached.resize(sums.reached.size());
-    const std::vector<LayerSums::Estimate> cells = cell_estimates(sums);
     for_places(shape, [&](std::size_t out, std::size_t place) {
-        layer.stderr_energy[out] = static_cast<float>(cells[place].error);
         if (!spread.halves.cells.empty()) spread.halves.cells[out] = sums.halves.cells[place];
         spread.squares[out] = sums.squares[place];
         spread.reached[out] = sums.reached[place];

@@ -4,11 +4,26 @@
 #include <asperity/core/memory.h>
 #include <asperity/detector/detector.h>
 #include <asperity/detector/layer_sums.h>
+#include <asperity/gonio/surface_class.h>
 #include <asperity/optics/fresnel.h>
 
 #include <algorithm>
 
 namespace asperity {
+
+namespace {
+
+/// What SurfaceClass keeps: every surface with its engine, or as many as it has room for, but the
+/// first one always; 0 where there is one surface, which is there already.
+double bytes_of_class(const Heightfield& surface, const Experiment& e, double engine) {
+    const auto surfaces = static_cast<double>(surfaces_of(e.run, surface.cell_count()));
+    if (surfaces < 2) return 0;
+    const double each = static_cast<double>(surface.heights.size() * sizeof(float)) + engine;
+    return std::min(surfaces * each,
+                    std::max(each, static_cast<double>(SurfaceClass::bytes_to_keep())));
+}
+
+}  // namespace
 
 std::uint64_t memory_needed(const Heightfield& surface, const Experiment& e) {
     // In floating point: a product of limits may not fit
@@ -33,8 +48,10 @@ std::uint64_t memory_needed(const Heightfield& surface, const Experiment& e) {
     constexpr double kBytesACell = 6;
     const double engine =
         e.run.engine == "plain" ? 0 : kBytesACell * static_cast<double>(surface.cell_count());
+    const double made = bytes_of_class(surface, e, engine);
     constexpr double kMost = 0x1p63;
-    return static_cast<std::uint64_t>(std::min(layers * layer + sums + engine, kMost));
+    return static_cast<std::uint64_t>(
+        std::min(layers * layer + sums + std::max(engine, made), kMost));
 }
 
 void require_memory_for(const Heightfield& surface, const Experiment& experiment) {

@@ -28,6 +28,25 @@ TEST(MemoryNeed, CountsLayersChannelsOrdersAndTheSurface) {
     EXPECT_EQ(memory_needed(surface, e), without + 6 * 100 * 100);
 }
 
+TEST(MemoryNeed, CountsTheSurfacesThatAreKept) {
+    const Heightfield surface = test::noise(100, 1);
+    Experiment e;
+    e.run.rays = 1 << 20;
+    e.run.engine = "plain";
+    const std::uint64_t of_one = memory_needed(surface, e);
+    // Heights of 4 bytes each
+    e.run.surfaces = 10;
+    EXPECT_EQ(memory_needed(surface, e), of_one + 10 * surface.heights.size() * 4);
+    // ... and 6 more of every cell in the wide engine, which there is once for each
+    e.run.engine = "wide";
+    EXPECT_EQ(memory_needed(surface, e),
+              of_one + 10 * (surface.heights.size() * 4 + 6 * 100 * 100));
+    // No more than there is room for
+    e.run.surfaces = 1 << 20;
+    EXPECT_LE(memory_needed(surface, e), of_one + (std::uint64_t{1} << 30));
+    EXPECT_GE(memory_needed(surface, e), of_one + (std::uint64_t{1} << 20));
+}
+
 TEST(MemoryNeed, WhatNoMachineHasIsRefusedAtOnce) {
     Experiment e;
     e.illumination.layers = 9000;

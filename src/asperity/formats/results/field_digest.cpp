@@ -11,13 +11,13 @@
 namespace asperity::io {
 
 FieldDigest::FieldDigest(std::string_view name, TensorType type,
-                         std::span<const std::uint64_t> shape)
+                         std::span<const std::uint64_t> shape, bool sorted)
     : state_(XXH3_createState()) {
     if (state_ == nullptr) throw std::bad_alloc();
     XXH3_128bits_reset(state_);
     // Lengths go in front of what they count, so that no two fields feed the same bytes.
-    const std::array<std::uint64_t, 3> head = {name.size(), static_cast<std::uint64_t>(type),
-                                               shape.size()};
+    const std::array<std::uint64_t, 3> head = {
+        name.size(), static_cast<std::uint64_t>(type) + (sorted ? 64 : 0), shape.size()};
     update(std::as_bytes(std::span(head)));
     update(std::as_bytes(std::span(name)));
     update(std::as_bytes(shape));
@@ -44,7 +44,7 @@ Digest digest_of(const TensorBlock& block) {
 
 Digest stored_digest_of(const TensorBlock& block) {
     if (block.packed.empty()) return digest_of(block);
-    FieldDigest digest(block.name, block.type, block.shape);
+    FieldDigest digest(block.name, block.type, block.shape, block.sorted);
     const std::uint64_t size = block.packed.size();
     digest.update(std::as_bytes(std::span(&size, 1)));
     digest.update(block.packed);
@@ -55,11 +55,11 @@ namespace {
 
 /// Feeds `bytes` bytes through a buffer that read(begin, part) fills.
 template <typename Read>
-Digest digest_through(const TensorField& field, std::uint64_t bytes, Read read) {
+Digest digest_through(const TensorField& field, std::uint64_t bytes, bool sorted, Read read) {
     // Of packed fields so many frames are unpacked side by side
     constexpr std::uint64_t kBufferBytes = 16 * kFrameBytes;
     std::vector<std::byte> buffer(static_cast<std::size_t>(std::min(kBufferBytes, bytes)));
-    FieldDigest digest(field.name, field.type, field.shape);
+    FieldDigest digest(field.name, field.type, field.shape, sorted);
     for (std::uint64_t begin = 0; begin < bytes; begin += buffer.size()) {
         const std::uint64_t count = std::min<std::uint64_t>(buffer.size(), bytes - begin);
         const auto part = std::span(buffer).first(static_cast<std::size_t>(count));
@@ -72,15 +72,16 @@ Digest digest_through(const TensorField& field, std::uint64_t bytes, Read read) 
 }  // namespace
 
 Digest digest_of(const TensorFile& file, const TensorField& field) {
-    return digest_through(field, field.bytes, [&](std::uint64_t begin, std::span<std::byte> part) {
-        file.read(field, begin, part);
-    });
+    return digest_through(
+        field, field.bytes, false,
+        [&](std::uint64_t begin, std::span<std::byte> part) { file.read(field, begin, part); });
 }
 
 Digest stored_digest_of(const TensorFile& file, const TensorField& field) {
-    return digest_through(field, field.stored, [&](std::uint64_t begin, std::span<std::byte> part) {
-        file.read_stored(field, begin, part);
-    });
+    return digest_through(field, field.stored, field.sorted,
+                          [&](std::uint64_t begin, std::span<std::byte> part) {
+                              file.read_stored(field, begin, part);
+                          });
 }
 
 std::string checksum_of(std::span<const Digest> digests) {

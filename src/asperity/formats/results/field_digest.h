@@ -20,7 +20,9 @@ using Digest = std::array<std::uint64_t, 2>;
 /// XXH3-128 over all that a field says: name, type, shape and numbers.
 class FieldDigest {
   public:
-    FieldDigest(std::string_view name, TensorType type, std::span<const std::uint64_t> shape);
+    /// `sorted`: of bytes that are (TensorField::sorted).
+    FieldDigest(std::string_view name, TensorType type, std::span<const std::uint64_t> shape,
+                bool sorted = false);
     ~FieldDigest();
     FieldDigest(const FieldDigest&) = delete;
     FieldDigest& operator=(const FieldDigest&) = delete;

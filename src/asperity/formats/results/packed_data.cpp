@@ -10,6 +10,7 @@
 #include <memory>
 #include <new>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 namespace asperity::io {
@@ -25,7 +26,7 @@ std::size_t frames_of(std::uint64_t bytes) {
     return static_cast<std::size_t>((bytes + kFrameBytes - 1) / kFrameBytes);
 }
 
-std::uint64_t content_of(std::size_t k, std::uint64_t bytes) {
+std::uint64_t content_of_frame(std::size_t k, std::uint64_t bytes) {
     return std::min(kFrameBytes, bytes - k * kFrameBytes);
 }
 
@@ -50,10 +51,38 @@ std::span<const std::byte> gather(std::span<const std::span<const std::byte>> pa
     return copy;
 }
 
+/// The k-th bytes of all numbers side by side.
+template <std::size_t kWidth>
+void sort_bytes(const std::byte* numbers, std::size_t count, std::byte* sorted) {
+    for (std::size_t n = 0; n < count; ++n)
+        for (std::size_t k = 0; k < kWidth; ++k) sorted[k * count + n] = numbers[n * kWidth + k];
+}
+
+template <std::size_t kWidth>
+void unsort_bytes(const std::byte* sorted, std::size_t count, std::byte* numbers) {
+    for (std::size_t n = 0; n < count; ++n)
+        for (std::size_t k = 0; k < kWidth; ++k) numbers[n * kWidth + k] = sorted[k * count + n];
+}
+
+/// Calls work(width) with one of the widths there are, known when this is compiled.
+template <class Work>
+void with_width(std::size_t width, Work work) {
+    if (width == 2) work(std::integral_constant<std::size_t, 2>());
+    if (width == 4) work(std::integral_constant<std::size_t, 4>());
+    if (width == 8) work(std::integral_constant<std::size_t, 8>());
+}
+
 /// What a thread packs with, frame after frame.
 class Packer {
   public:
-    std::vector<std::byte> pack(std::span<const std::byte> content) {
+    std::vector<std::byte> pack(std::span<const std::byte> content, std::size_t width) {
+        if (width > 1) {
+            sorted_.resize(content.size());
+            with_width(width, [&](auto bytes) {
+                sort_bytes<bytes()>(content.data(), content.size() / bytes(), sorted_.data());
+            });
+            content = sorted_;
+        }
         frame_.resize(ZSTD_compressBound(kFrameBytes));
         const std::size_t size = ZSTD_compressCCtx(context_.get(), frame_.data(), frame_.size(),
                                                    content.data(), content.size(), kLevel);
@@ -71,7 +100,7 @@ class Packer {
         throw std::bad_alloc();
     }
     std::unique_ptr<ZSTD_CCtx, Free> context_{make()};
-    std::vector<std::byte> frame_;
+    std::vector<std::byte> frame_, sorted_;
 };
 
 [[noreturn]] void fail(std::size_t k, const char* why) {
@@ -80,7 +109,7 @@ class Packer {
 
 }  // namespace
 
-std::vector<std::byte> pack(std::span<const std::span<const std::byte>> parts) {
+std::vector<std::byte> pack(std::span<const std::span<const std::byte>> parts, std::size_t width) {
     std::uint64_t bytes = 0;
     for (const auto part : parts) bytes += part.size();
     if (bytes < kLeastBytes) return {};
@@ -89,9 +118,10 @@ std::vector<std::byte> pack(std::span<const std::span<const std::byte>> parts) {
     parallel_for(threads, Run().threads(), [&](std::size_t thread) {
         Packer packer;
         for (std::size_t k = thread; k < frames.size(); k += threads)
-            frames[k] =
-                packer.pack(gather(parts, k * kFrameBytes,
-                                   static_cast<std::size_t>(content_of(k, bytes)), packer.copy));
+            frames[k] = packer.pack(
+                gather(parts, k * kFrameBytes, static_cast<std::size_t>(content_of_frame(k, bytes)),
+                       packer.copy),
+                width);
     });
     std::vector<std::byte> all;
     for (const auto& frame : frames) all.insert(all.end(), frame.begin(), frame.end());
@@ -99,8 +129,8 @@ std::vector<std::byte> pack(std::span<const std::span<const std::byte>> parts) {
     return all;
 }
 
-PackedData::PackedData(std::vector<std::byte> frames, std::uint64_t bytes)
-    : frames_(std::move(frames)), bytes_(bytes) {
+PackedData::PackedData(std::vector<std::byte> frames, std::uint64_t bytes, std::size_t width)
+    : frames_(std::move(frames)), bytes_(bytes), width_(width) {
     std::size_t place = 0;
     for (std::size_t k = 0; k < frames_of(bytes); ++k) {
         begins_.push_back(place);
@@ -108,7 +138,7 @@ PackedData::PackedData(std::vector<std::byte> frames, std::uint64_t bytes)
         const std::size_t left = frames_.size() - place;
         const std::size_t size = ZSTD_findFrameCompressedSize(data, left);
         if (ZSTD_isError(size)) fail(k, "is damaged or cut off");
-        if (ZSTD_getFrameContentSize(data, left) != content_of(k, bytes))
+        if (ZSTD_getFrameContentSize(data, left) != content_of_frame(k, bytes))
             fail(k, "does not hold what it should");
         place += size;
     }
@@ -120,6 +150,27 @@ std::span<const std::byte> PackedData::frame(std::size_t k) const {
     return std::span(frames_).subspan(begins_[k], begins_[k + 1] - begins_[k]);
 }
 
+std::uint64_t PackedData::content_of(std::size_t k) const {
+    return content_of_frame(k, bytes_);
+}
+
+void PackedData::unpack(std::size_t k, std::span<std::byte> place) const {
+    const auto packed = frame(k);
+    const auto decompress = [&](std::byte* to) {
+        if (ZSTD_decompress(to, place.size(), packed.data(), packed.size()) != place.size())
+            fail(k, "is damaged");
+    };
+    if (width_ == 1) {
+        decompress(place.data());
+        return;
+    }
+    std::vector<std::byte> sorted(place.size());
+    decompress(sorted.data());
+    with_width(width_, [&](auto bytes) {
+        unsort_bytes<bytes()>(sorted.data(), sorted.size() / bytes(), place.data());
+    });
+}
+
 void PackedData::read(std::uint64_t begin, std::span<std::byte> content) const {
     if (content.empty()) return;
     const std::uint64_t end = begin + content.size();
@@ -129,23 +180,47 @@ void PackedData::read(std::uint64_t begin, std::span<std::byte> content) const {
         const std::size_t k = first + n;
         const std::uint64_t frame_begin = k * kFrameBytes;
         const std::uint64_t from = std::max(begin, frame_begin),
-                            to = std::min(end, frame_begin + content_of(k, bytes_));
+                            to = std::min(end, frame_begin + content_of(k));
         const auto target = content.subspan(static_cast<std::size_t>(from - begin),
                                             static_cast<std::size_t>(to - from));
-        const auto unpack = [&](std::span<std::byte> place) {
-            const auto packed = frame(k);
-            if (ZSTD_decompress(place.data(), place.size(), packed.data(), packed.size()) !=
-                place.size())
-                fail(k, "is damaged");
-        };
-        if (target.size() == content_of(k, bytes_)) {
-            unpack(target);
+        if (target.size() == content_of(k)) {
+            unpack(k, target);
             return;
         }
-        std::vector<std::byte> whole(static_cast<std::size_t>(content_of(k, bytes_)));
-        unpack(whole);
+        std::vector<std::byte> whole(static_cast<std::size_t>(content_of(k)));
+        unpack(k, whole);
         std::copy_n(whole.begin() + static_cast<std::ptrdiff_t>(from - frame_begin), target.size(),
                     target.begin());
+    });
+}
+
+void PackedData::read_parts(std::span<const std::span<std::byte>> parts) const {
+    std::vector<std::uint64_t> ends;
+    for (const auto part : parts) ends.push_back((ends.empty() ? 0 : ends.back()) + part.size());
+    const std::size_t count = begins_.size() - 1;
+    parallel_for(count, count > 4 ? Run().threads() : 1, [&](std::size_t k) {
+        std::uint64_t at = k * kFrameBytes;
+        const std::uint64_t end = at + content_of(k);
+        auto p =
+            static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), at) - ends.begin());
+        const auto from_at = [&] {
+            const std::uint64_t left = ends[p] - at;
+            return parts[p]
+                .last(static_cast<std::size_t>(left))
+                .first(static_cast<std::size_t>(std::min(left, end - at)));
+        };
+        if (const auto place = from_at(); place.size() == end - at) {
+            unpack(k, place);
+            return;
+        }
+        std::vector<std::byte> whole(static_cast<std::size_t>(end - at));
+        unpack(k, whole);
+        for (const std::byte* next = whole.data(); at < end; ++p) {
+            const auto place = from_at();
+            std::copy_n(next, place.size(), place.data());
+            next += place.size();
+            at += place.size();
+        }
     });
 }
 

@@ -48,6 +48,45 @@ TEST(PackedData, ComesBackWholeAndInPieces) {
     }
 }
 
+// Bytes sorted by their place in a number: zeros and low bytes lie side by side.
+TEST(PackedData, NumbersComeBackFromSortedBytes) {
+    for (const std::size_t width : {std::size_t{2}, std::size_t{4}, std::size_t{8}}) {
+        const std::size_t bytes = (std::size_t{3} << 20) + 8 * 4321;
+        const std::vector<std::byte> all = content(bytes);
+        const std::span<const std::byte> part(all);
+        const std::vector<std::byte> packed = pack(std::span(&part, 1), width);
+        ASSERT_FALSE(packed.empty());
+        const PackedData data(packed, bytes, width);
+        std::vector<std::byte> back(bytes);
+        data.read(0, back);
+        EXPECT_TRUE(back == all);
+        // Into places that begin and end inside of frames, one of them empty
+        std::vector<std::byte> pieces(bytes);
+        const std::span<std::byte> place(pieces);
+        const std::size_t cut = (std::size_t{2} << 20) + 100;
+        const std::vector<std::span<std::byte>> places = {
+            place.first(10), place.subspan(10, 0), place.subspan(10, cut - 10), place.subspan(cut)};
+        data.read_parts(places);
+        EXPECT_TRUE(pieces == all);
+    }
+    // Numbers of two bytes, one by chance and a nine: first come all those by chance
+    std::vector<std::byte> numbers;
+    std::mt19937_64 engine(3);
+    for (std::size_t n = 0; n < 40000; ++n) {
+        numbers.push_back(static_cast<std::byte>(engine()));
+        numbers.push_back(std::byte{9});
+    }
+    const std::span<const std::byte> part(numbers);
+    std::vector<std::byte> sorted(numbers.size());
+    const std::vector<std::byte> packed = pack(std::span(&part, 1), 2);
+    EXPECT_LT(packed.size(), 41000u);
+    PackedData(packed, numbers.size()).read(0, sorted);
+    for (std::size_t n = 0; n < 40000; ++n) {
+        ASSERT_EQ(sorted[n], numbers[2 * n]);
+        ASSERT_EQ(sorted[40000 + n], std::byte{9});
+    }
+}
+
 TEST(PackedData, WhatIsNotWorthItStaysAsItIs) {
     const auto is_packed = [](const std::vector<std::byte>& all) {
         const std::span<const std::byte> part(all);

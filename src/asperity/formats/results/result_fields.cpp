@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/formats/results/result_fields.h>
 
+#include <asperity/core/parallel.h>
+#include <asperity/core/run.h>
 #include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/experiment_text.h>
 
@@ -34,7 +36,7 @@ std::vector<std::uint64_t> energy_of_all_orders(const Layer& layer, std::size_t 
 }
 
 ResultFields::ResultFields(const Measurement& measurement, bool packed)
-    : measurement_(measurement) {
+    : measurement_(measurement), packed_(packed) {
     add_text("description", kDescription);
     const auto format = static_cast<std::uint32_t>(kResultFormat);
     add_values<std::uint32_t>("format", TensorType::U32, {1}, std::span(&format, 1));
@@ -44,8 +46,11 @@ ResultFields::ResultFields(const Measurement& measurement, bool packed)
     add_layers();
     add_spreads();
     add_text("provenance", provenance_json(measurement));
-    if (packed)
-        for (TensorBlock& block : blocks_) block.packed = store_.emplace_back(pack(block.parts));
+    sum_up();
+    if (packed) {
+        leave_out();
+        pack_large();
+    }
     add_checksums();
 }
 
@@ -156,6 +161,7 @@ void ResultFields::add_where_needed(const char* name,
 
 /// In place of what known facets brought: mostly nothing, so that it takes a quarter of the room.
 void ResultFields::add_energy_of_rays() {
+    if (packed_) return;  // SparedLayer has it otherwise
     const std::vector<Layer>& layers = measurement_.layers;
     const auto has = [](const Layer& layer) { return !layer.spread.exact.empty(); };
     if (std::none_of(layers.begin(), layers.end(), has)) return;
@@ -210,13 +216,15 @@ void ResultFields::add_wide(const char* name, std::vector<std::uint64_t> shape,
 }
 
 bool in_checksum(std::string_view name) {
-    constexpr std::array<std::string_view, 16> kLeftOut = {
-        "provenance",       "sides",          "elements",
-        "largest_batch",    "batches_done",   "energy_squares",
-        "energy_stretched", "escaped_spread", "escaped_by_bounce_spread",
-        "energy_of_rays",   "group_rays",     "escaped_spread_by_age",
-        "batches_reached",  "group_energy",   "energy_halves",
-        "escaped_halves"};
+    constexpr std::array<std::string_view, 23> kLeftOut = {
+        "provenance",        "sides",          "elements",
+        "largest_batch",     "batches_done",   "energy_squares",
+        "energy_stretched",  "escaped_spread", "escaped_by_bounce_spread",
+        "energy_of_rays",    "group_rays",     "escaped_spread_by_age",
+        "batches_reached",   "group_energy",   "energy_halves",
+        "escaped_halves",    "energy_known",   "known_unit",
+        "known_squares",     "known_of_group", "energy_squares_rest",
+        "group_energy_rest", "checksum"};
     return std::find(kLeftOut.begin(), kLeftOut.end(), name) == kLeftOut.end();
 }
 
@@ -228,19 +236,101 @@ Digest format_digest() {
     return digest.finish();
 }
 
-void ResultFields::add_checksums() {
-    std::vector<Digest> digests, counted;
-    for (const TensorBlock& block : blocks_) {
-        const Digest content = digest_of(block);
-        digests.push_back(block.packed.empty() ? content : stored_digest_of(block));
+void ResultFields::sum_up() {
+    std::vector<Digest> counted;
+    for (const TensorBlock& block : blocks_)
         if (in_checksum(block.name))
-            counted.push_back(block.name == "format" ? format_digest() : content);
-    }
+            counted.push_back(block.name == "format" ? format_digest() : digest_of(block));
     checksum_ = checksum_of(counted);
-    std::vector<std::uint64_t> words;
-    for (const Digest& digest : digests) words.insert(words.end(), digest.begin(), digest.end());
-    add_values<std::uint64_t>("field_checksums", TensorType::U64, {digests.size(), 2}, words);
+}
+
+void ResultFields::replace(std::string_view name, TensorBlock block) {
+    const auto same = [&](const TensorBlock& b) { return b.name == name; };
+    const auto found = std::find_if(blocks_.begin(), blocks_.end(), same);
+    if (found != blocks_.end()) *found = std::move(block);
+}
+
+void ResultFields::leave_out() {
+    const std::vector<Layer>& layers = measurement_.layers;
+    const auto holds_all = [](const Layer& layer) {
+        return !layer.spread.squares.empty() && !layer.spread.reached.empty();
+    };
+    if (layers.empty() || !std::all_of(layers.begin(), layers.end(), holds_all)) return;
+    const SumShape shape = measurement_.shape();
+    spared_.resize(layers.size());
+    parallel_for(layers.size(), Run().threads(),
+                 [&](std::size_t k) { spared_[k] = spare(layers[k], shape); });
+    std::erase_if(blocks_, [&](const TensorBlock& b) {
+        return b.name == "stderr_energy" &&
+               std::all_of(spared_.begin(), spared_.end(),
+                           [](const SparedLayer& s) { return s.errors_follow; });
+    });
+    const std::uint64_t channels = shape.channels, rows = extent(measurement_.detector.rows());
+    const std::uint64_t columns = shape.columns;
+    const CoarseGrid grid(shape);
+    TensorBlock squares = {
+        "energy_squares_rest", TensorType::U64, {layers.size(), 2, channels, rows, columns}, {}};
+    TensorBlock groups = {"group_energy_rest",
+                          TensorType::U64,
+                          {layers.size(), channels, GroupSums::kGroups, grid.down, grid.across},
+                          {}};
+    for (const SparedLayer& s : spared_) {
+        squares.parts.push_back(std::as_bytes(std::span(s.squares)));
+        groups.parts.push_back(std::as_bytes(std::span(s.groups)));
+    }
+    replace("energy_squares", std::move(squares));
+    replace("group_energy", std::move(groups));
+    add_known();
+}
+
+void ResultFields::add_known() {
+    const std::vector<Layer>& layers = measurement_.layers;
+    const SumShape shape = measurement_.shape();
+    const std::uint64_t rows = extent(measurement_.detector.rows());
+    TensorBlock energy = {"energy_of_paths",
+                          TensorType::U64,
+                          {layers.size(), shape.orders, shape.channels, rows, shape.columns},
+                          {}};
+    TensorBlock known = {
+        "energy_known", TensorType::U64, {0, shape.channels, rows, shape.columns}, {}};
+    std::vector<std::uint64_t> unit, squares, of_group;
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+        const SparedLayer& s = spared_[k];
+        energy.parts.push_back(
+            std::as_bytes(std::span(s.known_unit == 0 ? layers[k].energy : s.energy)));
+        unit.push_back(s.known_unit);
+        squares.push_back(static_cast<std::uint64_t>(s.known_squares));
+        squares.push_back(static_cast<std::uint64_t>(s.known_squares >> 64));
+        of_group.insert(of_group.end(), s.known_of_group.begin(), s.known_of_group.end());
+        if (s.known_unit == 0) continue;
+        known.parts.push_back(std::as_bytes(std::span(s.known)));
+        ++known.shape[0];
+    }
+    if (known.parts.empty()) return;
+    replace("energy", std::move(energy));
+    add_values<std::uint64_t>("known_unit", TensorType::U64, {unit.size()}, unit);
+    add_values<std::uint64_t>("known_squares", TensorType::U64, {unit.size(), 2}, squares);
+    add_values<std::uint64_t>("known_of_group", TensorType::U64, {unit.size(), GroupSums::kGroups},
+                              of_group);
+    blocks_.push_back(std::move(known));
+}
+
+void ResultFields::pack_large() {
+    for (TensorBlock& block : blocks_) {
+        block.sorted = size_of(block.type) > 1;
+        block.packed = store_.emplace_back(
+            pack(block.parts, block.sorted ? static_cast<std::size_t>(size_of(block.type)) : 1));
+    }
+}
+
+void ResultFields::add_checksums() {
     add_text("checksum", checksum_);
+    std::vector<std::uint64_t> words;
+    for (const TensorBlock& block : blocks_) {
+        const Digest digest = stored_digest_of(block);
+        words.insert(words.end(), digest.begin(), digest.end());
+    }
+    add_values<std::uint64_t>("field_checksums", TensorType::U64, {blocks_.size(), 2}, words);
 }
 
 void ResultFields::add_text(const char* name, std::string text) {

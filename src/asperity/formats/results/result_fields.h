@@ -2,6 +2,7 @@
 #pragma once
 
 #include <asperity/formats/results/field_digest.h>
+#include <asperity/formats/results/spared_layer.h>
 #include <asperity/formats/results/tensor_file.h>
 #include <asperity/gonio/measurement.h>
 
@@ -25,14 +26,15 @@ Digest format_digest();
 std::vector<std::uint64_t> energy_of_all_orders(const Layer& layer, std::size_t size);
 
 /// A Measurement as fields of a container: first those that depend on nothing but the experiment,
-/// then what more batches can be added to, "provenance" (how it was run), "field_checksums" (one
-/// row per field before it) and "checksum". docs/formats.md lists them all.
+/// then what more batches can be added to, "provenance" (how it was run), "checksum" and
+/// "field_checksums" (one row per field before it). docs/formats.md lists them all.
 ///
-/// The large arrays are not copied (but one, which is told from two others): the measurement must
-/// outlive this object.
+/// The large arrays are not copied (but one, which is told from two others) unless they are packed:
+/// the measurement must outlive this object.
 class ResultFields {
   public:
-    /// `packed`: large fields are to be stored packed, which takes some time.
+    /// `packed`: large fields are to be stored packed, without what follows from the rest
+    /// (SparedLayer), which takes some time.
     explicit ResultFields(const Measurement& measurement, bool packed = false);
     ResultFields(const ResultFields&) = delete;
     ResultFields& operator=(const ResultFields&) = delete;
@@ -63,10 +65,18 @@ class ResultFields {
     void add_where_needed(const char* name, std::vector<std::uint64_t> LayerSpread::*member);
     void add_wide(const char* name, std::vector<std::uint64_t> shape,
                   std::vector<LayerSums::Spread> LayerSpread::*member);
+    void sum_up();
+    /// Puts what SparedLayer holds in place of what it was made of.
+    void leave_out();
+    void add_known();
+    void replace(std::string_view name, TensorBlock block);
+    void pack_large();
     void add_checksums();
 
     const Measurement& measurement_;
+    const bool packed_;
     std::deque<std::vector<std::byte>> store_;  ///< what the measurement does not hold as bytes
+    std::vector<SparedLayer> spared_;
     std::vector<TensorBlock> blocks_;
     std::string checksum_;
 };

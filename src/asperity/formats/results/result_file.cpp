@@ -2,6 +2,9 @@
 #include <asperity/formats/results/result_file.h>
 
 #include <asperity/core/error.h>
+#include <asperity/core/parallel.h>
+#include <asperity/core/run.h>
+#include <asperity/formats/results/field_reader.h>
 #include <asperity/formats/results/result_fields.h>
 #include <asperity/gonio/experiment_text.h>
 #include <asperity/gonio/measurement_check.h>
@@ -14,63 +17,99 @@
 namespace asperity::io {
 namespace {
 
-constexpr std::uint64_t kMaxTextBytes = 16 << 20;
-
 // Turns the fields of an open container back into a Measurement.
-class ResultReader {
+class ResultReader : FieldReader {
   public:
-    explicit ResultReader(const TensorFile& file) : file_(file) {}
+    using FieldReader::FieldReader;
 
     Measurement read() {
         check_format();
-        check_checksums();
+        check_stored();
         read_settings();
         read_layers();
+        read_cells();
         read_spreads();
+        check_whole();
         if (const std::string why = contradiction(result_); !why.empty())
-            file_.fail(file_.find("energy")->offset, why);
+            file_.fail(first_of({"energy", "energy_of_paths"}).offset, why);
         return std::move(result_);
     }
 
-  private:
-    using Shape = std::vector<std::uint64_t>;
+    ResultHead read_head() {
+        if (check_format() < 3 || file_.find("energy_halves") != nullptr) {
+            Measurement whole = read();
+            return {std::move(whole), text("checksum")};
+        }
+        check_stored();
+        read_settings();
+        read_layers();
+        return {std::move(result_), text("checksum")};
+    }
 
-    void check_format() const {
+  private:
+    std::uint32_t check_format() const {
         const TensorField* field = file_.find("format");
         if (field == nullptr) file_.fail(0, "a tensor file, but no result of Asperity");
         const auto format = values<std::uint32_t>("format", TensorType::U32, {1}).front();
         if (format == 0 || format > static_cast<std::uint32_t>(kResultFormat))
             file_.fail(field->offset, fmt::format("format {} is not known here, at most {} is",
                                                   format, kResultFormat));
+        return format;
     }
 
     // Every byte is covered: the checksums cover the fields, the layout leaves none between them.
-    void check_checksums() const {
+    // The two last fields changed places with format 3: before that, "checksum" is not covered.
+    void check_stored() {
         file_.require_own_layout();
         const auto& fields = file_.fields();
-        if (fields.size() < 3 || fields[fields.size() - 2].name != "field_checksums" ||
-            fields.back().name != "checksum")
+        const std::size_t table = fields.size() - (check_format() < 3 ? 2 : 1);
+        if (fields.size() < 3 || fields[table].name != "field_checksums" ||
+            file_.find("checksum") == nullptr)
             file_.fail(0, "the checksums are missing");
-        const std::size_t count = fields.size() - 2;
-        const auto stored = values<std::uint64_t>("field_checksums", TensorType::U64, {count, 2});
-
-        std::vector<Digest> stable;
-        for (std::size_t k = 0; k < count; ++k) {
-            const TensorField& field = fields[k];
-            const Digest digest = stored_digest_of(file_, field);
-            if (digest != Digest{stored[2 * k], stored[2 * k + 1]})
+        const auto stored = values<std::uint64_t>("field_checksums", TensorType::U64, {table, 2});
+        for (std::size_t k = 0; k < table; ++k) {
+            digests_.push_back(stored_digest_of(file_, fields[k]));
+            if (digests_[k] != Digest{stored[2 * k], stored[2 * k + 1]})
                 file_.fail(
                     fields[k].offset,
                     fmt::format("field '{}' is damaged: its {} bytes do not fit its checksum",
                                 fields[k].name, fields[k].bytes));
-            if (!in_checksum(field.name)) continue;
-            if (field.name == "format")
-                stable.push_back(format_digest());
-            else
-                stable.push_back(field.packed ? digest_of(file_, field) : digest);
         }
-        if (text("checksum") != checksum_of(stable))
-            file_.fail(fields.back().offset, "the checksum of the whole does not fit");
+    }
+
+    // What is left out counts as if it were there.
+    void check_whole() const {
+        std::vector<Digest> counted;
+        for (std::size_t k = 0; k < digests_.size(); ++k) {
+            const TensorField& field = file_.fields()[k];
+            if (!in_checksum(field.name)) continue;
+            if (field.name == "stderr_albedo" && file_.find("stderr_energy") == nullptr)
+                counted.push_back(digest_of(
+                    layer_block("stderr_energy", TensorType::F32, {}, &Layer::stderr_energy)));
+            if (field.name == "format")
+                counted.push_back(format_digest());
+            else if (field.name == "energy" || field.name == "energy_of_paths")
+                counted.push_back(digest_of(layer_block(
+                    "energy", TensorType::U64, {extent(result_.orders())}, &Layer::energy)));
+            else
+                counted.push_back(field.packed ? digest_of(file_, field) : digests_[k]);
+        }
+        if (text("checksum") != checksum_of(counted))
+            file_.fail(file_.find("checksum")->offset, "the checksum of the whole does not fit");
+    }
+
+    // An array over cells as ResultFields has it, `axes` behind that of the layers.
+    template <typename T>
+    TensorBlock layer_block(const char* name, TensorType type, const Shape& axes,
+                            std::vector<T> Layer::*member) const {
+        TensorBlock block = {name, type, {result_.layers.size()}, {}};
+        block.shape.insert(block.shape.end(), axes.begin(), axes.end());
+        for (const int count :
+             {result_.channels(), result_.detector.rows(), result_.detector.columns()})
+            block.shape.push_back(extent(count));
+        for (const Layer& layer : result_.layers)
+            block.parts.push_back(std::as_bytes(std::span(layer.*member)));
+        return block;
     }
 
     void read_settings() {
@@ -106,23 +145,29 @@ class ResultReader {
         read_scalars("batches", TensorType::I32, &Layer::batches);
 
         const std::uint64_t channels = extent(result_.channels());
-        const std::uint64_t rows = extent(result_.detector.rows());
-        const std::uint64_t columns = extent(result_.detector.columns());
-        const std::uint64_t orders = extent(result_.orders());
         const std::uint64_t bounces = extent(result_.bounces());
-        read_arrays("energy", TensorType::U64, {count, orders, channels, rows, columns},
-                    &Layer::energy);
         read_arrays("escaped", TensorType::U64, {count, channels}, &Layer::escaped);
         read_arrays("absorbed", TensorType::U64, {count, channels}, &Layer::absorbed);
         read_arrays("truncated", TensorType::U64, {count, channels}, &Layer::truncated);
         read_arrays("edge", TensorType::U64, {count, channels}, &Layer::edge);
         read_arrays("escaped_by_bounce", TensorType::U64, {count, channels, bounces},
                     &Layer::escaped_by_bounce);
-        read_arrays("stderr_energy", TensorType::F32, {count, channels, rows, columns},
-                    &Layer::stderr_energy);
         read_arrays("stderr_albedo", TensorType::F64, {count, channels}, &Layer::stderr_albedo);
         read_arrays("stderr_albedo_by_bounce", TensorType::F64, {count, channels, bounces},
                     &Layer::stderr_albedo_by_bounce);
+    }
+
+    Shape cells() const {
+        return {result_.layers.size(), extent(result_.channels()), extent(result_.detector.rows()),
+                extent(result_.detector.columns())};
+    }
+
+    void read_cells() {
+        const Shape c = cells();
+        read_arrays(file_.find("energy_of_paths") ? "energy_of_paths" : "energy", TensorType::U64,
+                    {c[0], extent(result_.orders()), c[1], c[2], c[3]}, &Layer::energy);
+        if (file_.find("stderr_energy") != nullptr || file_.find("energy_squares_rest") == nullptr)
+            read_arrays("stderr_energy", TensorType::F32, c, &Layer::stderr_energy);
     }
 
     void read_spreads() {
@@ -130,13 +175,14 @@ class ResultReader {
             if (const TensorField* found = file_.find(axis);
                 found && values<std::uint32_t>(axis, TensorType::U32, {1}).front() != 1)
                 file_.fail(found->offset, fmt::format("more {} than one are not known here", axis));
-        if (file_.find("energy_squares") == nullptr) return;
+        const bool spared = file_.find("energy_squares_rest") != nullptr;
+        if (!spared && file_.find("energy_squares") == nullptr) return;
         const std::uint64_t count = result_.layers.size(), channels = extent(result_.channels());
-        const Shape cells = {count, channels, extent(result_.detector.rows()),
-                             extent(result_.detector.columns())};
-        read_parts(
-            "energy_squares", TensorType::U64, {cells[0], cells[1], cells[2], cells[3], 2},
-            [](Layer & layer) -> auto& { return layer.spread.squares; });
+        const Shape cells = this->cells();
+        if (!spared)
+            read_parts(
+                "energy_squares", TensorType::U64, {cells[0], cells[1], cells[2], cells[3], 2},
+                [](Layer & layer) -> auto& { return layer.spread.squares; });
         if (file_.find("energy_stretched") != nullptr)
             read_parts(
                 "energy_stretched", TensorType::U64, cells,
@@ -148,8 +194,50 @@ class ResultReader {
         read_wide("escaped_by_bounce_spread", {count, channels, extent(result_.bounces()), 3},
                   &LayerSpread::bounces);
         read_wide("escaped_spread", {count, channels, 3}, &LayerSpread::albedo);
-        if (file_.find("batches_reached") != nullptr) read_groups(cells);
+        if (spared || file_.find("batches_reached") != nullptr) read_groups(cells);
         if (file_.find("energy_halves") != nullptr) read_halves(cells);
+        if (spared) read_spared(cells);
+    }
+
+    // What is left out, last of all: it follows from the rest.
+    void read_spared(const Shape& cells) {
+        spared_.resize(result_.layers.size());
+        read_each(
+            "energy_squares_rest", TensorType::U64, {cells[0], 2, cells[1], cells[2], cells[3]},
+            spared_, [](SparedLayer & s) -> auto& { return s.squares; });
+        const CoarseGrid grid(result_.shape());
+        read_each(
+            "group_energy_rest", TensorType::U64,
+            {cells[0], cells[1], GroupSums::kGroups, grid.down, grid.across}, spared_,
+            [](SparedLayer & s) -> auto& { return s.groups; });
+        if (file_.find("energy_of_paths") != nullptr) read_known(cells);
+        const bool errors_follow = file_.find("stderr_energy") == nullptr;
+        const SumShape shape = result_.shape();
+        parallel_for(spared_.size(), Run().threads(), [&](std::size_t k) {
+            spared_[k].errors_follow = errors_follow;
+            restore(result_.layers[k], spared_[k], shape);
+            spared_[k] = {};
+        });
+    }
+
+    void read_known(const Shape& cells) {
+        const std::size_t count = spared_.size(), groups = GroupSums::kGroups;
+        const auto unit = values<std::uint64_t>("known_unit", TensorType::U64, {count});
+        const auto squares = values<std::uint64_t>("known_squares", TensorType::U64, {count, 2});
+        const auto of_group =
+            values<std::uint64_t>("known_of_group", TensorType::U64, {count, groups});
+        std::vector<SparedLayer*> known;
+        for (std::size_t k = 0; k < count; ++k) {
+            SparedLayer& s = spared_[k];
+            s.known_unit = unit[k];
+            s.known_squares = (LayerSums::Wide{squares[2 * k + 1]} << 64) | squares[2 * k];
+            const auto first = of_group.begin() + static_cast<std::ptrdiff_t>(k * groups);
+            s.known_of_group.assign(first, first + static_cast<std::ptrdiff_t>(groups));
+            if (unit[k] != 0) known.push_back(&s);
+        }
+        read_each(
+            "energy_known", TensorType::U64, {known.size(), cells[1], cells[2], cells[3]}, known,
+            [](SparedLayer * s) -> auto& { return s->known; });
     }
 
     void read_halves(const Shape& cells) {
@@ -186,6 +274,7 @@ class ResultReader {
         read_parts(
             "group_rays", TensorType::U64, {cells[0], GroupSums::kGroups},
             [](Layer & layer) -> auto& { return layer.spread.groups.rays; });
+        if (file_.find("group_energy_rest") != nullptr) return;
         read_parts(
             "group_energy", TensorType::U64,
             {cells[0], GroupSums::kGroups, grid.down, grid.across, cells[1]},
@@ -211,47 +300,6 @@ class ResultReader {
                 .push_back({words[k], (LayerSums::Wide{words[k + 2]} << 64) | words[k + 1]});
     }
 
-    static std::uint64_t extent(int count) { return static_cast<std::uint64_t>(count); }
-
-    const TensorField& field(const char* name, TensorType type, const Shape& shape) const {
-        const TensorField& field = file_.require(name, type, shape.size());
-        if (field.shape != shape)
-            file_.fail(field.entry, fmt::format("field '{}' does not have the shape of the "
-                                                "experiment",
-                                                name));
-        return field;
-    }
-
-    template <typename T>
-    std::vector<T> values(const char* name, TensorType type, const Shape& shape) const {
-        const TensorField& found = field(name, type, shape);
-        std::vector<T> numbers(static_cast<std::size_t>(found.bytes) / sizeof(T));
-        file_.read(found, 0, std::as_writable_bytes(std::span(numbers)));
-        return numbers;
-    }
-
-    std::string text(const char* name) const {
-        const TensorField& found = file_.require(name, TensorType::U8, 1);
-        if (found.bytes > kMaxTextBytes)
-            file_.fail(found.entry, fmt::format("field '{}' is too long for a text", name));
-        std::string characters(static_cast<std::size_t>(found.bytes), '\0');
-        file_.read(found, 0, std::as_writable_bytes(std::span(characters)));
-        return characters;
-    }
-
-    // Whatever the text does not say right becomes an error about its field.
-    template <typename Read>
-    void try_reading(const char* name, Read&& read) const {
-        const std::string characters = text(name);
-        try {
-            read(characters);
-        } catch (const std::bad_alloc&) {
-            throw;
-        } catch (const std::exception& error) {
-            file_.fail(file_.find(name)->offset, fmt::format("field '{}': {}", name, error.what()));
-        }
-    }
-
     template <typename T>
     void read_scalars(const char* name, TensorType type, T Layer::*member) {
         const auto numbers = values<T>(name, type, {result_.layers.size()});
@@ -268,18 +316,12 @@ class ResultReader {
 
     template <typename Part>
     void read_parts(const char* name, TensorType type, const Shape& shape, Part part) {
-        const TensorField& found = field(name, type, shape);
-        const std::size_t layers = result_.layers.size();
-        for (std::size_t k = 0; k < layers; ++k) {
-            const std::uint64_t bytes = found.bytes / layers;
-            auto& numbers = part(result_.layers[k]);
-            numbers.resize(static_cast<std::size_t>(bytes) / sizeof(numbers[0]));
-            file_.read(found, k * bytes, std::as_writable_bytes(std::span(numbers)));
-        }
+        read_each(name, type, shape, result_.layers, part);
     }
 
-    const TensorFile& file_;
     Measurement result_;
+    std::vector<Digest> digests_;  ///< of the fields that the table of checksums covers
+    std::vector<SparedLayer> spared_;
 };
 
 }  // namespace
@@ -296,6 +338,15 @@ Measurement load_measurement(const std::string& path) {
     const TensorFile file(path);
     try {
         return ResultReader(file).read();
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorCode::OutOfMemory, "too large for the memory there is", path);
+    }
+}
+
+ResultHead load_head(const std::string& path) {
+    const TensorFile file(path);
+    try {
+        return ResultReader(file).read_head();
     } catch (const std::bad_alloc&) {
         throw Error(ErrorCode::OutOfMemory, "too large for the memory there is", path);
     }

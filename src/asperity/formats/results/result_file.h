@@ -8,7 +8,7 @@
 namespace asperity::io {
 
 /// Version of the result format (docs/formats.md). Readers refuse a higher one.
-inline constexpr int kResultFormat = 2;
+inline constexpr int kResultFormat = 3;
 
 /// Writes a result file (tensor container, docs/formats.md): to a temporary name beside `path`,
 /// synced, renamed over it; on any failure `path` is as it was and no temporary file is left.
@@ -18,6 +18,18 @@ std::string save_measurement(const Measurement& measurement, const std::string& 
 /// Reads a result file whole. A damaged, cut or foreign file is refused with file, offset and
 /// reason: Error(InvalidInput), Error(InputOutput).
 Measurement load_measurement(const std::string& path);
+
+/// A result without its cells: experiment, surface, and all that layers hold as a whole.
+struct ResultHead {
+    Measurement measurement;  ///< arrays over cells, and LayerSpread, may be empty
+    std::string checksum;     ///< of the whole result, see checksum()
+};
+/// Reads no more than that where it can. Every byte of the file is compared with its checksum all
+/// the same, so a damaged file is refused as by load_measurement(); whether what is packed in it
+/// makes the whole result is not looked at. Results of several surfaces, whose cells tell the
+/// shares of their noise, are read whole, and so are those of formats before 3, whose table of
+/// checksums does not cover the file.
+ResultHead load_head(const std::string& path);
 
 /// True when the file starts like a tensor container; false for anything else, unreadable included.
 bool looks_like_result(const std::string& path);

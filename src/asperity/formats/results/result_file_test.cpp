@@ -257,8 +257,9 @@ TEST(ResultFile, RefusesEveryFlippedByte) {
         const int bits = place % 2 == 0 ? 0xff : 1 << (place / 2 % 8);
         write_byte(place, static_cast<char>(good[place] ^ bits));
         const auto error = error_of([&] { load_measurement(path); });
+        const auto of_head = error_of([&] { load_head(path); });
         write_byte(place, good[place]);
-        ASSERT_TRUE(error) << "byte " << place << " of " << good.size();
+        ASSERT_TRUE(error && of_head) << "byte " << place << " of " << good.size();
         EXPECT_EQ(error->code(), ErrorCode::InvalidInput) << error->what();
         EXPECT_NE(std::string(error->what()).find("r.asperity: offset "), std::string::npos)
             << error->what();
@@ -380,11 +381,12 @@ TEST(ResultFile, RefusesWellFormedNonsense) {
                 counted.push_back(block.name == "format" ? format_digest() : digests.back());
         }
         const std::string sum = checksum_of(counted);
+        blocks.push_back({"checksum", TensorType::U8, {32}, {std::as_bytes(std::span(sum))}});
+        digests.push_back(digest_of(blocks.back()));
         blocks.push_back({"field_checksums",
                           TensorType::U64,
                           {digests.size(), 2},
                           {std::as_bytes(std::span(digests))}});
-        blocks.push_back({"checksum", TensorType::U8, {32}, {std::as_bytes(std::span(sum))}});
         write_tensor_file(folder / "r.asperity", blocks);
         expect_error(ErrorCode::InvalidInput, why,
                      [&] { load_measurement(folder / "r.asperity"); });
@@ -398,7 +400,7 @@ TEST(ResultFile, RefusesWellFormedNonsense) {
     text("experiment", "phi = none\n", "field 'experiment': phi: needs at least one azimuth");
     text("channel_names", "[\"R\"", "field 'channel_names': [json");
     text("channel_names", "{\"R\": 1}", "field 'channel_names': [json");
-    text("channel_names", "[\"R\"]", "'energy' does not have the shape");
+    text("channel_names", "[\"R\"]", "'escaped' does not have the shape");
     text("channel_names", std::string(100000, '['), "field 'channel_names': [json");
     text("surface", "[]", "field 'surface': [json");
     text("surface", "null", "field 'surface': [json");
@@ -413,7 +415,7 @@ TEST(ResultFile, RefusesWellFormedNonsense) {
     refused("stuck", std::string(16, '\xff'), TensorType::U64, {2}, "rays stuck");
     refused("stderr_albedo", std::string(48, '\xff'), TensorType::F64, {2, 3}, "is negative or no");
     refused("theta_edges", std::string(24, '\xff'), TensorType::F64, {3}, "does not fit the");
-    refused("format", std::string("\3\0\0\0", 4), TensorType::U32, {1}, "format 3 is not known");
+    refused("format", std::string("\4\0\0\0", 4), TensorType::U32, {1}, "format 4 is not known");
     refused("sides", std::string("\2\0\0\0", 4), TensorType::U32, {1}, "more sides than one");
     refused("elements", std::string("\0\0\0\0", 4), TensorType::U32, {1}, "more elements");
     refused("format", std::string("\0\0\0\0", 4), TensorType::U32, {1}, "format 0 is not known");

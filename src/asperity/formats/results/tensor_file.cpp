@@ -27,6 +27,7 @@ constexpr std::string_view kVersion = "\x01\x00"sv;
 constexpr std::uint64_t kHeaderBytes = 12 + 2 + 4;
 constexpr std::uint64_t kAlignment = 8;
 constexpr std::uint8_t kPacked = 128;  ///< beside the type
+constexpr std::uint8_t kSorted = 64;   ///< likewise, of packed fields
 
 // No table that keeps the limits is longer.
 constexpr std::uint64_t kMaxTableBytes =
@@ -107,7 +108,8 @@ void read_shape(TableReader& table, TensorField& field, const std::string& what,
     const std::uint64_t type_place = table.place();
     const auto stored_type = table.number<std::uint8_t>(what);
     field.packed = (stored_type & kPacked) != 0;
-    const int type = stored_type & ~kPacked;
+    field.sorted = field.packed && (stored_type & kSorted) != 0;
+    const int type = stored_type & ~(kPacked | (field.sorted ? kSorted : 0));
     if (type < 1 || type > static_cast<int>(TensorType::F64))
         table.fail(type_place, fmt::format("{} has the unknown type {}", what, stored_type));
     field.type = static_cast<TensorType>(type);
@@ -207,6 +209,12 @@ std::uint64_t stored_bytes(const TensorBlock& block) {
                                 : sizeof(std::uint64_t) + block.packed.size();
 }
 
+std::uint8_t stored_type(const TensorBlock& block) {
+    const auto type = static_cast<std::uint8_t>(block.type);
+    if (block.packed.empty()) return type;
+    return static_cast<std::uint8_t>(type | kPacked | (block.sorted ? kSorted : 0));
+}
+
 std::string padding(std::uint64_t offset) {
     return std::string(static_cast<std::size_t>(aligned(offset) - offset), '\0');
 }
@@ -231,8 +239,7 @@ void write_tensor_file(const std::string& path, std::span<const TensorBlock> blo
         append(table, static_cast<std::uint16_t>(block.name.size()));
         table += block.name;
         append(table, static_cast<std::uint16_t>(block.shape.size()));
-        append(table, static_cast<std::uint8_t>(static_cast<std::uint8_t>(block.type) |
-                                                (block.packed.empty() ? 0 : kPacked)));
+        append(table, stored_type(block));
         append(table, aligned(end));
         for (const std::uint64_t extent : block.shape) append(table, extent);
         end = aligned(end) + stored_bytes(block);
@@ -303,16 +310,40 @@ void TensorFile::read(const TensorField& field, std::uint64_t begin,
         file_.read(field.offset + begin, bytes);
         return;
     }
+    unpacking(field, [&](const PackedData& data) { data.read(begin, bytes); });
+}
+
+void TensorFile::read_parts(const TensorField& field,
+                            std::span<const std::span<std::byte>> parts) const {
+    std::uint64_t begin = 0;
+    for (const auto part : parts) begin += part.size();
+    if (begin != field.bytes)
+        fail(field.offset, fmt::format("field '{}' has {} bytes, {} were asked for", field.name,
+                                       field.bytes, begin));
+    if (field.packed) {
+        unpacking(field, [&](const PackedData& data) { data.read_parts(parts); });
+        return;
+    }
+    begin = field.offset;
+    for (const auto part : parts) {
+        file_.read(begin, part);
+        begin += part.size();
+    }
+}
+
+template <class Read>
+void TensorFile::unpacking(const TensorField& field, Read read) const {
     try {
         if (unpacked_ != &field) {
             unpacked_ = nullptr;
             std::vector<std::byte> frames(
                 static_cast<std::size_t>(field.stored - sizeof(std::uint64_t)));
             file_.read(field.offset + sizeof(std::uint64_t), frames);
-            frames_.emplace(std::move(frames), field.bytes);
+            frames_.emplace(std::move(frames), field.bytes,
+                            field.sorted ? static_cast<std::size_t>(size_of(field.type)) : 1);
             unpacked_ = &field;
         }
-        frames_->read(begin, bytes);
+        read(*frames_);
     } catch (const std::runtime_error& error) {
         fail(field.offset, fmt::format("field '{}' is damaged: {}", field.name, error.what()));
     }

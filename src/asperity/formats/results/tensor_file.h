@@ -7,7 +7,9 @@
 //     per field: the data, row-major, beginning at a multiple of 8 bytes
 //
 // Ours goes beyond that in one thing: 128 is added to the type of a field whose data are packed, a
-// u64 with the number of bytes that follow, and these, zstd frames of 1 MiB of content each.
+// u64 with the number of bytes that follow, and these, zstd frames of 1 MiB of content each. 64
+// more says that in each frame the first bytes of all numbers come first, then the second ones and
+// so on.
 #pragma once
 
 #include <asperity/formats/read_file.h>
@@ -49,6 +51,7 @@ struct TensorBlock {
     std::vector<std::uint64_t> shape;
     std::vector<std::span<const std::byte>> parts;
     std::span<const std::byte> packed = {};  ///< what pack() makes of the parts, if it is to be so
+    bool sorted = false;                     ///< ... with the width of the type
 };
 
 /// A field found in a file.
@@ -60,6 +63,7 @@ struct TensorField {
     std::uint64_t bytes = 0;   ///< product(shape) * size_of(type)
     std::uint64_t stored = 0;  ///< bytes from `offset` on: fewer where they are packed
     bool packed = false;
+    bool sorted = false;      ///< its bytes are, in each frame
     std::uint64_t entry = 0;  ///< offset of its entry in the table
 };
 
@@ -95,7 +99,10 @@ class TensorFile {
     /// one thread at a time: of a packed field all frames are kept until another one is read.
     void read(const TensorField& field, std::uint64_t begin, std::span<std::byte> bytes) const;
 
-    /// The same for the bytes as they are stored, `stored` of them.
+    /// Fills the parts, one after the other, with all of the field: of a packed one on all threads.
+    void read_parts(const TensorField& field, std::span<const std::span<std::byte>> parts) const;
+
+    /// The same as read() for the bytes as they are stored, `stored` of them.
     void read_stored(const TensorField& field, std::uint64_t begin,
                      std::span<std::byte> bytes) const {
         file_.read(field.offset + begin, bytes);
@@ -108,6 +115,10 @@ class TensorFile {
     [[noreturn]] void fail(std::uint64_t offset, const std::string& why) const;
 
   private:
+    /// Calls read(PackedData) with the field's.
+    template <class Read>
+    void unpacking(const TensorField& field, Read read) const;
+
     InputFile file_;
     std::uint64_t table_end_ = 0;
     std::vector<TensorField> fields_;
