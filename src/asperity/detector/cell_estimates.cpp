@@ -54,8 +54,9 @@ class Hits {
             few_.push_back(hits_of(reached, batches, 0));
     }
     double of(std::uint32_t reached, double energy) const {
-        if (reached < few_.size() && reached < batches_) return few_[reached];
-        return hits_of(reached, batches_, energy);
+        if (reached >= few_.size()) return hits_of(reached, batches_, energy);
+        if (reached < batches_) return few_[reached];
+        return std::max(few_[reached], energy / static_cast<double>(kRayEnergy));
     }
 
   private:
