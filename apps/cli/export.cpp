@@ -9,6 +9,7 @@
 #include "output_path.h"
 #include "picture_names.h"
 #include "report_json.h"
+#include "stop.h"
 #include "verbs.h"
 
 #include <asperity/core/directions.h>
@@ -168,7 +169,10 @@ class ExportVerb {
         check_output_file(path);
         if (snippet_) io::require_snippets(format.name);
         const double most = max_error();
-        const io::ExportSource source = open_source();
+        Run run;
+        const StopOnSignal stop(run);
+        io::ExportSource source = open_source();
+        source.watch(run);
         std::vector<std::string> remarks = source.remarks();
         for (std::string& remark : format.write(source, options, path))
             remarks.push_back(std::move(remark));
@@ -178,7 +182,7 @@ class ExportVerb {
             for (const std::string& name : io::write_snippets(format.name, options, path))
                 say("wrote " + name + "\n");
         if (format.read) {
-            const io::Fidelity fidelity = io::fidelity_of(source, format, path);
+            const io::Fidelity fidelity = read_back(source, format, path);
             say(io::to_text(fidelity) + "\n");
             for (const std::string& remark : remarks) say("  " + remark + "\n");
             if (json_) write_json(json_of(path, format, fidelity, remarks));
@@ -195,6 +199,16 @@ class ExportVerb {
             write_json({{"file", path}, {"format", format.name}, {"remarks", remarks}});
         }
         return 0;
+    }
+
+    static io::Fidelity read_back(const io::ExportSource& source, const io::BsdfFormat& format,
+                                  const std::string& path) {
+        try {
+            return io::fidelity_of(source, format, path);
+        } catch (const Error& error) {
+            if (error.code() != ErrorCode::Stopped) throw;
+            throw Error(error.code(), "stopped; the file is whole, it was not read back", path);
+        }
     }
 
     /// The mean L1 that is still taken.

@@ -45,6 +45,21 @@ class Stop(ProgramTest):
         # A short one does not
         self.assertNotIn(" min: ", self.passes(*LONG[:5], "--rays", "100000", *LONG[7:]))
 
+    def test_an_export_ends_and_leaves_no_file(self):
+        process = self.start("export", "ggx:alpha=0.3", "-o", "x.bsdf", "--format",
+                             "rgl:n=400,theta=128")
+        time.sleep(0.7)
+        asked = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=60)
+        self.assertLess(time.monotonic() - asked, SOON)
+        self.assertEqual(process.returncode, 130, err)
+        if "nothing is written" in err:
+            self.assert_files()
+        else:  # a quick machine was reading it back
+            self.assertIn("the file is whole", err)
+            self.assert_files("x.bsdf")
+
     def test_keeps_what_is_complete(self):
         for wish in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with self.subTest(wish):

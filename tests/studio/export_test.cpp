@@ -2,6 +2,7 @@
 // The dialog Export: all writers, files that are read back, what is said of them.
 #include "dialogs_testing.h"
 
+#include <QElapsedTimer>
 #include <QFileInfo>
 
 namespace asperity::studio::testing {
@@ -20,6 +21,8 @@ class ExportTest : public QObject {
     void scenes_lie_beside_the_file();
     void a_wrong_option_is_said_at_its_field();
     void export_can_be_stopped();
+    void a_stop_ends_it_at_once();
+    void a_file_too_far_is_said();
     void screenshots();
 
   private:
@@ -144,6 +147,56 @@ void ExportTest::export_can_be_stopped() {
     // Whole or not there, and it says which
     QCOMPARE(QFileInfo::exists(path), message.contains("is whole"));
     if (QFileInfo::exists(path)) QVERIFY(io::BsdfFormats().read(path.toStdString()) != nullptr);
+}
+
+void ExportTest::a_stop_ends_it_at_once() {
+    // 128 slices of 160000 nodes take seconds
+    ExportDialog& dialog = window().exporting();
+    window().control<QComboBox>("export-source").setCurrentText("A model");
+    auto& format = window().control<QComboBox>("export-format");
+    format.setCurrentIndex(format.findText("rgl  (", Qt::MatchStartsWith));
+    window().control<QLineEdit>("export-option-n").setText("400");
+    window().control<QLineEdit>("export-option-theta").setText("128");
+    QSignalSpy done(&dialog, &ExportDialog::exported);
+    const QString path = scope_.path("large.bsdf");
+    dialog.write(path);
+    QTest::qWait(300);
+    QVERIFY2(done.count() == 0, "the export was too quick to be stopped");
+    QElapsedTimer timer;
+    timer.start();
+    window().click("export-stop");
+    QVERIFY(QTest::qWaitFor([&] { return done.count() > 0; }, 60000));
+    const auto took = timer.elapsed();
+    QCOMPARE(window().control<QLabel>("export-message").text(),
+             QString("stopped before anything was written"));
+    QVERIFY(!QFileInfo::exists(path));
+    // A tenth of a second on a quiet machine
+    QVERIFY2(took < 1000, qPrintable(QString::number(took)));
+    qInfo("stopped after %lld ms", static_cast<long long>(took));
+}
+
+void ExportTest::a_file_too_far_is_said() {
+    ExportDialog& dialog = window().exporting();
+    window().control<QComboBox>("export-source").setCurrentText("A model");
+    auto& format = window().control<QComboBox>("export-format");
+    format.setCurrentIndex(format.findText("klems  (", Qt::MatchStartsWith));
+    auto& most = window().control<QLineEdit>("export-max-error");
+    const QColor calm = most.palette().color(QPalette::Base);
+    const auto message = [&] { return window().control<QLabel>("export-message").text(); };
+    most.setText("abc");
+    dialog.write(scope_.path("k.xml"));
+    QVERIFY(!QFileInfo::exists(scope_.path("k.xml")));
+    QVERIFY2(message().contains("abc"), qPrintable(message()));
+    QVERIFY(most.palette().color(QPalette::Base) != calm);
+    most.setText("0.01%");
+    window().write(dialog, scope_.path("k.xml"));
+    QVERIFY2(message().contains("holds the data within"), qPrintable(message()));
+    most.setText("90%");
+    window().write(dialog, scope_.path("k.xml"));
+    QVERIFY2(message().endsWith("is written"), qPrintable(message()));
+    // What is not read back has no error
+    format.setCurrentIndex(format.findText("layers-csv  (", Qt::MatchStartsWith));
+    QVERIFY(!most.isEnabled() && most.text().isEmpty());
 }
 
 void ExportTest::screenshots() {

@@ -22,6 +22,8 @@ class FitTest : public QObject {
     void fits_find_the_truth();
     void a_fit_goes_into_the_plots();
     void a_fit_goes_into_the_comparison();
+    void a_diffuse_part_is_added();
+    void a_fit_is_saved_as_materialx();
     void fit_settings_are_kept();
     void fitting_can_be_stopped();
     void errors_have_two_digits();
@@ -139,6 +141,51 @@ void FitTest::a_fit_goes_into_the_comparison() {
     shoot(window(), "compare-fit-small");
     window().workbench().document().undo_stack().undo();
     QVERIFY(window().workbench().settings().scene == SceneKind::Surface);
+}
+
+void FitTest::a_diffuse_part_is_added() {
+    const QString file = window().ggx_file(scope_);
+    FitDialog& dialog = window().fitting();
+    dialog.source().set_source({BrdfSource::Kind::File, file.toStdString()});
+    window().only({"ggx"});
+    window().control<QCheckBox>("fit-lambert").click();
+    QVERIFY(window().workbench().settings().fit.lambert);
+    window().fit(dialog);
+    QVERIFY2(dialog.outcome() != nullptr,
+             qPrintable(window().control<QLabel>("fit-message").text()));
+    const Fit& fit = dialog.outcome()->report.fits.front();
+    QCOMPARE(fit.text, std::string("ggx plus lambert"));
+    const auto found = std::find_if(fit.params.begin(), fit.params.end(),
+                                    [](const FittedParam& p) { return p.key == "lambert"; });
+    QVERIFY(found != fit.params.end() && found->value < 0.02);
+    // OpenPBR has no place for it
+    QVERIFY(!window().control<QPushButton>("fit-materialx").isEnabled());
+    window().click("fit-to-plots");
+    const auto& settings = window().workbench().settings().plots.overlay_settings;
+    const auto kept = settings.find("ggx");
+    QVERIFY(kept != settings.end());
+    QVERIFY(std::any_of(kept->second.begin(), kept->second.end(),
+                        [](const auto& setting) { return setting.first == "lambert"; }));
+}
+
+void FitTest::a_fit_is_saved_as_materialx() {
+    const QString file = window().ggx_file(scope_);
+    FitDialog& dialog = window().fitting();
+    auto& button = window().control<QPushButton>("fit-materialx");
+    QVERIFY(!button.isEnabled());
+    dialog.source().set_source({BrdfSource::Kind::File, file.toStdString()});
+    window().only({"ggx"});
+    window().fit(dialog);
+    QVERIFY(dialog.outcome() != nullptr);
+    QVERIFY(button.isEnabled());
+    const std::string path = scope_.path("gold.mtlx").toStdString();
+    write_materialx(dialog.outcome()->report.fits.front(), path);
+    QFile written(QString::fromStdString(path));
+    QVERIFY(written.open(QIODevice::ReadOnly));
+    QVERIFY(written.readAll().contains("open_pbr_surface"));
+    window().only({"beckmann"});
+    window().fit(dialog);
+    QVERIFY(!button.isEnabled());
 }
 
 void FitTest::fit_settings_are_kept() {

@@ -6,6 +6,8 @@
 #include <asperity/formats/bsdfs/fidelity.h>
 #include <asperity/formats/bsdfs/snippets.h>
 
+#include <cmath>
+
 namespace asperity::studio {
 
 namespace {
@@ -32,36 +34,55 @@ bool has_snippets(const std::string& format) {
     }
 }
 
-ExportOutcome export_brdf(const ExportWish& wish, Run& run) {
+namespace {
+
+/// The steps of an export; a stop leaves in the outcome what was done before.
+void run_export(const ExportWish& wish, Run& run, ExportOutcome& outcome) {
     const io::BsdfFormats formats;
     const io::BsdfFormat& format = formats.for_writing(wish.path, wish.format);
     const io::FormatOptions options(format.options, wish.options);
     if (wish.snippets) io::require_snippets(format.name);
+    if (!format.read && std::isfinite(wish.max_error))
+        throw Error(ErrorCode::Usage, "this format is not read back", "max-error");
 
-    ExportOutcome outcome;
     constexpr std::uint64_t kSteps = 3;
     run.begin("exporting", kSteps);
-    const auto goes_on = [&] {
+    const auto step = [&] {
         run.advance(1);
-        outcome.stopped = run.stop_requested();
-        return !outcome.stopped;
+        if (run.stop_requested()) throw Error(ErrorCode::Stopped, "stopped");
     };
-    const io::ExportSource source = source_of(wish, run.threads());
+    io::ExportSource source = source_of(wish, run.threads());
+    source.watch(run);
     const auto remark = [&](const std::string& sentence) {
         outcome.remarks << QString::fromStdString(sentence);
     };
     for (const std::string& sentence : source.remarks()) remark(sentence);
-    if (!goes_on()) return outcome;
+    step();
     for (const std::string& sentence : format.write(source, options, wish.path)) remark(sentence);
     outcome.written << QString::fromStdString(wish.path);
     if (wish.snippets)
         for (const std::string& name : io::write_snippets(format.name, options, wish.path))
             outcome.written << QString::fromStdString(name);
-    if (!goes_on() || !format.read) return outcome;
-    const io::Fidelity fidelity = io::fidelity_of(source, format, wish.path);
-    outcome.fidelity = QString::fromStdString(io::to_text(fidelity));
-    outcome.mean_l1 = fidelity.mean_l1;
+    step();
+    if (format.read) {
+        const io::Fidelity fidelity = io::fidelity_of(source, format, wish.path);
+        outcome.fidelity = QString::fromStdString(io::to_text(fidelity));
+        outcome.mean_l1 = fidelity.mean_l1;
+        outcome.too_far = fidelity.mean_l1 > wish.max_error;
+    }
     run.end();
+}
+
+}  // namespace
+
+ExportOutcome export_brdf(const ExportWish& wish, Run& run) {
+    ExportOutcome outcome;
+    try {
+        run_export(wish, run, outcome);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::Stopped) throw;
+        outcome.stopped = true;
+    }
     return outcome;
 }
 

@@ -6,6 +6,7 @@
 #include <QString>
 #include <QStringList>
 
+#include <limits>
 #include <string>
 
 namespace asperity::studio {
@@ -18,18 +19,21 @@ struct ExportWish {
     std::string options;  ///< "key=value,key=value"
     bool snippets = false;
     std::string path;
+    double max_error = std::numeric_limits<double>::infinity();  ///< of mean_l1, a share
 };
 
 /// What came of it.
 struct ExportOutcome {
-    QStringList written;  ///< files
-    QString fidelity;     ///< a line; empty: the format cannot be read back, or stopped before
-    double mean_l1 = -1;  ///< below 0: not known
+    QStringList written;   ///< files
+    QString fidelity;      ///< a line; empty: the format cannot be read back, or stopped before
+    double mean_l1 = -1;   ///< below 0: not known
+    bool too_far = false;  ///< mean_l1 is above ExportWish::max_error
     QStringList remarks;
     bool stopped = false;  ///< after what `written` says
 };
 
-/// Writes the file and reads it back. A stop ends it between steps: files are whole or not there.
+/// Writes the file and reads it back. A stop ends it within about 0.1 s; files are whole or not
+/// there.
 /// Throws what opening, writing and reading throw.
 ExportOutcome export_brdf(const ExportWish& wish, Run& run);
 

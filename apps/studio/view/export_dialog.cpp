@@ -6,6 +6,9 @@
 #include "section.h"
 #include "setting_line.h"
 
+#include <asperity/core/error.h>
+#include <asperity/params/param.h>
+
 #include <QFile>
 #include <QFileInfo>
 #include <QHBoxLayout>
@@ -68,7 +71,7 @@ ExportDialog::ExportDialog(Workbench& workbench, QWidget* parent)
     connect(export_, &QPushButton::clicked, this, &ExportDialog::ask_for_file);
     connect(close, &QPushButton::clicked, this, &QDialog::hide);
     connect(progress_, &ProgressRow::stop, this, [this] {
-        if (run_) run_->request_stop();  // the file being written is finished
+        if (run_) run_->request_stop();
     });
     connect(source_, &SourcePicker::changed, this, &ExportDialog::show_state);
     show_format();
@@ -106,6 +109,12 @@ QWidget* ExportDialog::make_left() {
     snippets_->setObjectName("export-snippets");
     snippets_->setToolTip(tr("Of Mitsuba, pbrt or Radiance, that show a sphere of it"));
     to->form().addRow(QString(), snippets_);
+    max_error_ = new QLineEdit;
+    max_error_->setObjectName("export-max-error");
+    max_error_->setPlaceholderText(tr("never"));
+    to->add_named_row(tr("Fail Above"), max_error_,
+                      tr("Of the mean L1 of f cos, when the file is read back: 2% or 0.02"));
+    connect(max_error_, &QLineEdit::textEdited, this, [this] { mark_field(*max_error_, false); });
     column->addWidget(to);
 
     auto* options = new Section(tr("Options of the Format"));
@@ -151,6 +160,8 @@ void ExportDialog::show_format() {
         connect(line, &QLineEdit::textEdited, line, [line] { mark_field(*line, false); });
     }
     if (row.options.empty()) form->addRow(new QLabel(tr("none")));
+    max_error_->setEnabled(row.read != nullptr);
+    if (!row.read) max_error_->clear();
     const bool scenes = has_snippets(row.name);
     snippets_->setEnabled(scenes);
     if (!scenes) snippets_->setChecked(false);
@@ -163,6 +174,17 @@ std::string ExportDialog::options_text() const {
         if (const std::string value = line->text().trimmed().toStdString(); !value.empty())
             text += (text.empty() ? "" : ",") + name + "=" + value;
     return text;
+}
+
+/// Throws Error(Usage, "max-error").
+double ExportDialog::max_error() const {
+    ParamInfo info{.name = "max-error", .range = kAboveZero, .percent = true};
+    info.type = ParamType::Real;
+    const std::string text = max_error_->text().trimmed().toStdString();
+    if (text.empty()) return kNoEnd;
+    const ParamValue value = parse(info, text);
+    check(info, value);
+    return std::get<double>(value);
 }
 
 void ExportDialog::show_state() {
@@ -188,6 +210,12 @@ void ExportDialog::write(const QString& path) {
     ExportWish wish{source_->source(),      workbench_.drawing().result(),
                     format().name,          options_text(),
                     snippets_->isChecked(), QFile::encodeName(path).toStdString()};
+    mark_field(*max_error_, false);
+    try {
+        wish.max_error = max_error();
+    } catch (const Error& error) {
+        return fail(QString::fromUtf8(error.what()));
+    }
     run_ = std::make_shared<Run>();
     background_.start(
         [this, wish](Run& run, const Background::Post&) -> Background::Delivery {
@@ -213,11 +241,15 @@ void ExportDialog::end(const ExportOutcome& outcome) {
     report_->setHtml(html);
     const QString name =
         outcome.written.isEmpty() ? QString() : QFileInfo(outcome.written.first()).fileName();
-    progress_->end(!outcome.stopped ? tr("%1 is written").arg(name)
+    const QString far = tr("%1 is written, but holds the data within %2 % only")
+                            .arg(name)
+                            .arg(100 * outcome.mean_l1, 0, 'g', 3);
+    progress_->end(outcome.too_far    ? far
+                   : !outcome.stopped ? tr("%1 is written").arg(name)
                    : outcome.written.isEmpty()
                        ? tr("stopped before anything was written")
                        : tr("stopped: %1 is whole, it was not read back").arg(name),
-                   outcome.stopped);
+                   outcome.stopped || outcome.too_far);
     for (const QString& path : outcome.written) workbench_.log(tr("wrote %1").arg(path));
     if (!outcome.fidelity.isEmpty()) workbench_.log(outcome.fidelity);
     show_state();
@@ -228,6 +260,7 @@ void ExportDialog::fail(const QString& sentence) {
     const std::string where = sentence.section(": ", 0, 0).toStdString();
     if (const auto field = fields_.find(where); field != fields_.end())
         mark_field(*field->second, true);
+    if (where == "max-error") mark_field(*max_error_, true);
     progress_->end(in_words_of_forms(sentence), true);
     show_state();
     emit exported();

@@ -45,6 +45,7 @@ class ExportDialog : public QDialog {
     void show_state();
     const io::BsdfFormat& format() const;
     std::string options_text() const;
+    double max_error() const;
 
     Workbench& workbench_;
     io::BsdfFormats formats_;
@@ -55,6 +56,7 @@ class ExportDialog : public QDialog {
     QWidget* options_;  ///< the fields of the format
     std::map<std::string, QLineEdit*> fields_;
     QCheckBox* snippets_;
+    QLineEdit* max_error_;
     QTextBrowser* report_;
     ProgressRow* progress_;
     QPushButton* export_;

@@ -85,7 +85,7 @@ QWidget* FitDialog::make_left() {
     column->addWidget(models, 1);
 
     auto* how = new Section(tr("How"));
-    for (const char* name : {"metric", "reflectance", "free", "light", "max-theta"}) {
+    for (const char* name : {"metric", "reflectance", "free", "lambert", "light", "max-theta"}) {
         const auto& row = *asperity::find(all_params(), std::string("fit-") + name);
         const QString label = QString::fromStdString(asperity::label(row.info));
         how->add_named_row(label,
@@ -198,7 +198,10 @@ QLayout* FitDialog::make_uses() {
     residuals_ = make_button(tr("Save Residuals..."), "fit-residuals",
                              tr("A picture of the chosen fit over the data, layer by layer"));
     auto* row = new QHBoxLayout;
-    for (QPushButton* button : {plots_, compare_, copy_, residuals_}) row->addWidget(button);
+    materialx_ = make_button(tr("Save MaterialX..."), "fit-materialx",
+                             tr("The chosen fit of ggx as an OpenPBR surface"));
+    for (QPushButton* button : {plots_, compare_, copy_, residuals_, materialx_})
+        row->addWidget(button);
     row->addStretch(1);
     connect(plots_, &QPushButton::clicked, this, [this] {
         const SurfaceSource& surface = workbench_.surface();
@@ -216,6 +219,7 @@ QLayout* FitDialog::make_uses() {
         QGuiApplication::clipboard()->setText(QString::fromStdString(chosen()->spec));
     });
     connect(residuals_, &QPushButton::clicked, this, &FitDialog::save_residuals);
+    connect(materialx_, &QPushButton::clicked, this, &FitDialog::save_materialx);
     return row;
 }
 
@@ -276,6 +280,19 @@ void FitDialog::show_state() {
                              : tr("Fits the models that are ticked"));
     for (QPushButton* button : {plots_, compare_, copy_, residuals_})
         button->setEnabled(chosen() != nullptr && !busy());
+    materialx_->setEnabled(chosen() != nullptr && !busy() && fits_materialx(*chosen()));
+}
+
+void FitDialog::save_materialx() {
+    ask_file_to_save(this, tr("Save MaterialX"), tr("MaterialX (*.mtlx)"), "mtlx",
+                     [this, fit = *chosen()](const QString& path) {
+                         try {
+                             write_materialx(fit, QFile::encodeName(path).toStdString());
+                             progress_->end(tr("%1 is written").arg(path));
+                         } catch (const Error& error) {
+                             progress_->end(QString::fromUtf8(error.what()), true);
+                         }
+                     });
 }
 
 void FitDialog::save_residuals() {

@@ -47,6 +47,7 @@ class FitDialog : public QDialog {
     void show_state();
     void show_table();
     void save_residuals();
+    void save_materialx();
     /// The fit that is chosen in the table; null: none.
     const Fit* chosen() const;
 
@@ -56,7 +57,7 @@ class FitDialog : public QDialog {
     QTreeWidget *models_, *table_;
     QLabel* verdict_;
     ProgressRow* progress_;
-    QPushButton *fit_, *plots_, *compare_, *copy_, *residuals_;
+    QPushButton *fit_, *plots_, *compare_, *copy_, *residuals_, *materialx_;
     std::optional<FitOutcome> outcome_;
     BrdfSource fitted_source_;
     std::shared_ptr<Run> run_;

@@ -33,6 +33,28 @@ TEST(BsdfFormats, NamesAreUniqueAndEveryRowSaysWhatItIs) {
     }
 }
 
+TEST(BsdfFormats, AStopEndsEveryWriterAndLeavesNoFile) {
+    const io::test::TemporaryFolder folder;
+    const BsdfFormats formats;
+    for (const BsdfFormat& format : formats.rows()) {
+        if (!format.write) continue;
+        asperity::Run run(2);
+        const bool layers = format.name.starts_with("layers");
+        ExportSource source = layers ? ExportSource(one_layer(), 2)
+                                     : ExportSource(parse_brdf_spec("ggx:alpha=0.3"), {}, 2);
+        source.watch(run);
+        run.request_stop();
+        const std::string path = folder / ("stopped." + format.endings.front());
+        try {
+            format.write(source, FormatOptions(format.options, ""), path);
+            ADD_FAILURE() << format.name;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::Stopped) << format.name << error.what();
+        }
+        EXPECT_EQ(folder.files(), 0) << format.name;
+    }
+}
+
 TEST(BsdfFormats, AreChosenByNameElseByEnding) {
     const BsdfFormats formats;
     EXPECT_EQ(formats.for_writing("a.EXR", "").name, "layers");

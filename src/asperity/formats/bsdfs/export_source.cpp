@@ -69,6 +69,43 @@ class IsotropicMean final : public Bsdf {
     int azimuths_;
 };
 
+void check(const Run& run) {
+    if (run.stop_requested()) throw Error(ErrorCode::Stopped, "stopped, nothing is written");
+}
+
+class UntilStopped final : public Bsdf {
+  public:
+    UntilStopped(std::shared_ptr<const Bsdf> bsdf, const Run& run)
+        : bsdf_(std::move(bsdf)), run_(run) {}
+
+    int channels() const override { return bsdf_->channels(); }
+    std::string name() const override { return bsdf_->name(); }
+    bool isotropic() const override { return bsdf_->isotropic(); }
+    void eval(Vec3 wi, Vec3 wo, std::span<double> f) const override {
+        check(run_);
+        bsdf_->eval(wi, wo, f);
+    }
+    double eval_pdf(Vec3 wi, Vec3 wo, std::span<double> f) const override {
+        check(run_);
+        return bsdf_->eval_pdf(wi, wo, f);
+    }
+    std::optional<BsdfSample> sample(Vec3 wi, double u1, double u2) const override {
+        return bsdf_->sample(wi, u1, u2);
+    }
+    double pdf(Vec3 wi, Vec3 wo) const override { return bsdf_->pdf(wi, wo); }
+    void albedo(Vec3 wi, std::span<double> a) const override {
+        check(run_);
+        bsdf_->albedo(wi, a);
+    }
+    std::optional<double> normal_density(Vec3 wm) const override {
+        return bsdf_->normal_density(wm);
+    }
+
+  private:
+    std::shared_ptr<const Bsdf> bsdf_;
+    const Run& run_;
+};
+
 std::vector<double> distinct(std::vector<double> angles) {
     std::sort(angles.begin(), angles.end());
     constexpr double kSameAngle = 1e-9;
@@ -81,6 +118,10 @@ std::vector<double> distinct(std::vector<double> angles) {
 
 std::shared_ptr<const Bsdf> isotropic_mean(std::shared_ptr<const Bsdf> bsdf, int azimuths) {
     return std::make_shared<IsotropicMean>(std::move(bsdf), azimuths);
+}
+
+std::shared_ptr<const Bsdf> until_stopped(std::shared_ptr<const Bsdf> bsdf, const Run& run) {
+    return std::make_shared<UntilStopped>(std::move(bsdf), run);
 }
 
 ExportSource::ExportSource(std::shared_ptr<const Measurement> measurement, int threads)
@@ -117,8 +158,16 @@ void ExportSource::take_angles() {
     phis_ = distinct(std::move(phis_));
 }
 
+void ExportSource::check_stopped() const {
+    if (run_) check(*run_);
+}
+
 const Bsdf& ExportSource::bsdf() const {
-    if (!bsdf_) bsdf_ = make_tabulated_brdf(*measurement_);
+    if (!bsdf_)
+        bsdf_ =
+            run_ ? make_tabulated_brdf(*measurement_, *run_) : make_tabulated_brdf(*measurement_);
+    if (run_ && !guarded_) bsdf_ = until_stopped(bsdf_, *run_);
+    guarded_ = guarded_ || run_;
     return *bsdf_;
 }
 

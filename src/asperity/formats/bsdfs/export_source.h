@@ -2,6 +2,7 @@
 #pragma once
 
 #include <asperity/bsdf/bsdf.h>
+#include <asperity/core/run.h>
 #include <asperity/gonio/measurement.h>
 
 #include <array>
@@ -20,6 +21,9 @@ namespace asperity::io {
 /// is isotropic already.
 std::shared_ptr<const Bsdf> isotropic_mean(std::shared_ptr<const Bsdf> bsdf, int azimuths);
 
+/// The BSDF, whose eval() and eval_pdf() throw Error(Stopped) once the run is asked to stop.
+std::shared_ptr<const Bsdf> until_stopped(std::shared_ptr<const Bsdf> bsdf, const Run& run);
+
 /// What an export starts from: a measurement, or any Bsdf, as a continuous function, with the
 /// incident directions it knows and the sentences that tell where it comes from.
 ///
@@ -30,6 +34,14 @@ class ExportSource {
     ExportSource(std::shared_ptr<const Measurement> measurement, int threads);
     /// `experiment` gives the incident directions and the detector that the fidelity is taken on.
     ExportSource(std::shared_ptr<const Bsdf> bsdf, const Experiment& experiment, int threads);
+
+    /// From now on the functions of the source, and with them the formats that are made of them,
+    /// throw Error(Stopped) once `run`, which must live as long, is asked to stop: a writer ends
+    /// within milliseconds and leaves no file. Before the functions are called for the first time.
+    void watch(const Run& run) { run_ = &run; }
+    const Run* watched() const { return run_; }
+    /// For loops of a writer that call none of the functions.
+    void check_stopped() const;
 
     /// Null for a source that is a Bsdf.
     const Measurement* measurement() const { return measurement_.get(); }
@@ -71,6 +83,8 @@ class ExportSource {
     int threads_;
     std::vector<std::string> channel_names_;
     std::vector<double> thetas_, phis_;
+    const Run* run_ = nullptr;
+    mutable bool guarded_ = false;  ///< bsdf_ asks the run
     mutable std::shared_ptr<const Bsdf> bsdf_, isotropic_bsdf_;
 };
 

@@ -58,7 +58,8 @@ Comparison comparison_of(const ExportSource& source, const Bsdf& file) {
 Fidelity fidelity_of(const ExportSource& source, const BsdfFormat& format,
                      const std::string& path) {
     if (!format.read) throw Error(ErrorCode::Usage, "this format is not read back", format.name);
-    const std::unique_ptr<Bsdf> file = format.read(path);
+    std::shared_ptr<const Bsdf> file = format.read(path);
+    if (source.watched()) file = until_stopped(std::move(file), *source.watched());
     const bool as_grey = source.channels() != file->channels();
     const Comparison comparison =
         as_grey ? comparison_of(source, OneChannel(*file)) : comparison_of(source, *file);

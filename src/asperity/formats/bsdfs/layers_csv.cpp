@@ -46,7 +46,10 @@ BsdfFormat::Remarks write(const ExportSource& source, const FormatOptions&,
     if (!m) throw Error(ErrorCode::Usage, "layers-csv needs a measurement", "format");
     AtomicFile file(path);
     file.write(head_of(source, *m));
-    for (const Layer& layer : m->layers) file.write(rows_of(*m, layer));
+    for (const Layer& layer : m->layers) {
+        source.check_stopped();
+        file.write(rows_of(*m, layer));
+    }
     file.commit();
     return {};
 }

@@ -206,6 +206,7 @@ BsdfFormat layers_exr_format() {
                           const std::string& path) -> BsdfFormat::Remarks {
         if (!source.measurement())
             throw Error(ErrorCode::Usage, "layers needs a measurement", "format");
+        source.check_stopped();
         write_layers_exr(*source.measurement(), path);
         return {};
     };

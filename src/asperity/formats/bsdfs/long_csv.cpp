@@ -228,10 +228,11 @@ Shape shape_of(const ExportSource& source, const FormatOptions& options) {
 }
 
 /// Lines of the table; angles times `unit`.
-std::string lines_of(const AngleTable& table, double unit) {
+std::string lines_of(const AngleTable& table, double unit, const ExportSource& source) {
     std::string text;
     for (std::size_t p = 0; p < table.phi_i.size(); ++p)
-        for (std::size_t t = 0; t < table.theta_i.size(); ++t)
+        for (std::size_t t = 0; t < table.theta_i.size(); ++t) {
+            source.check_stopped();
             for (std::size_t n = 0; n < table.directions(); ++n) {
                 const double phi_o =
                     std::fmod(table.phi_i[p] + table.azimuth[n % table.azimuth.size()], 2 * kPi);
@@ -242,6 +243,7 @@ std::string lines_of(const AngleTable& table, double unit) {
                     text += fmt::format(",{:.6g}", table.f[table.block(p, t, c) + n]);
                 text += '\n';
             }
+        }
     return text;
 }
 
@@ -252,7 +254,7 @@ BsdfFormat::Remarks write_csv(const ExportSource& source, const FormatOptions& o
     for (const std::string& line : source.provenance()) file.write("# " + line + "\n");
     std::string head = "# degrees; f in 1/sr without a cosine\ntheta_i,phi_i,theta_o,phi_o";
     for (const std::string& channel : source.channel_names()) head += ",f_" + channel;
-    file.write(head + "\n" + lines_of(table, 180 / kPi));
+    file.write(head + "\n" + lines_of(table, 180 / kPi, source));
     file.commit();
     return {};
 }
@@ -266,7 +268,7 @@ BsdfFormat::Remarks write_astm(const ExportSource& source, const FormatOptions& 
     std::string head = "VARS theta_i,phi_i,theta_s,phi_s";
     for (const std::string& channel : source.channel_names())
         head += "," + (source.channels() == 1 ? "f" : channel);
-    file.write(head + "\n" + lines_of(table, 1));
+    file.write(head + "\n" + lines_of(table, 1, source));
     file.commit();
     return {};
 }

@@ -152,7 +152,8 @@ class RglBuilder {
   public:
     RglBuilder(const ExportSource& source, const Grid& grid, bool isotropic,
                std::vector<int> channels)
-        : bsdf_(isotropic ? source.isotropic_bsdf() : source.bsdf()),
+        : source_(source),
+          bsdf_(isotropic ? source.isotropic_bsdf() : source.bsdf()),
           luminance_(source.luminance_weights()),
           grid_(grid),
           isotropic_(isotropic),
@@ -171,7 +172,10 @@ class RglBuilder {
         t.vndf = {grid_.normals, grid_.normals, std::vector<float>(grid_.slices() * normals)};
         t.luminance = {grid_.n, grid_.n, std::vector<float>(grid_.slices() * size)};
         t.values = {grid_.n, grid_.n, std::vector<float>(grid_.slices() * channels_.size() * size)};
-        parallel_for(grid_.slices(), threads, [&](std::size_t s) { fill_visible(t, s); });
+        parallel_for(grid_.slices(), threads, [&](std::size_t s) {
+            source_.check_stopped();
+            fill_visible(t, s);
+        });
         // Values are taken at the directions that readers will find with the numbers as written.
         const Density visible(t.vndf);
         parallel_for(grid_.slices(), threads, [&](std::size_t s) { fill_values(t, visible, s); });
@@ -224,6 +228,7 @@ class RglBuilder {
         for (std::size_t k = 0; k < size; ++k) luminance[k] = std::max(luminance[k], floor);
     }
 
+    const ExportSource& source_;
     const Bsdf& bsdf_;
     std::vector<double> luminance_;
     const Grid& grid_;
