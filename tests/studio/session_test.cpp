@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The session as text and its history: nothing is lost, nothing wrong is taken.
 #include "model/document.h"
+#include "model/facet_choices.h"
 #include "model/session_text.h"
 #include "model/settings_keys.h"
 
 #include <asperity/core/error.h>
 #include <asperity/gonio/experiment_text.h>
+#include <asperity/optics/fresnel.h>
+#include <asperity/optics/materials.h>
+#include <asperity/optics/scattering_law.h>
 
 #include <QFile>
 #include <QSignalSpy>
@@ -87,6 +91,7 @@ class SessionTest : public QObject {
     void changes_within_changes();
     void open_and_save();
     void open_refuses_and_keeps();
+    void facets_to_choose_are_all_laws();
 };
 
 void SessionTest::every_key_survives_data() {
@@ -300,6 +305,35 @@ void SessionTest::open_refuses_and_keeps() {
     QCOMPARE(document.settings().experiment.run.bounces, 7);
     QCOMPARE(document.undo_stack().count(), 1);
     QVERIFY(document.path().isEmpty());
+}
+
+void SessionTest::facets_to_choose_are_all_laws() {
+    ScatteringLaw half;
+    half.name = "half";
+    half.label = "Half mirrors";
+    half.channels = [](const OpticsSettings& s) {
+        if (s.ior.empty()) throw Error(ErrorCode::Usage, "is missing", "ior");
+        return std::vector<FacetChannel>{{0.5, s.ior[0], 0}};
+    };
+    half.reflectance = [](double, const FacetChannel& channel) { return channel.f0; };
+    const FresnelKind kind = add_scattering_law(half);
+
+    const std::vector<FacetChoice> choices = facet_choices();
+    QCOMPARE(choices.size(), 3 + materials().size() + 1);
+    for (std::size_t k = 0; k < choices.size(); ++k) {
+        QCOMPARE(facet_choice_of(choices, choices[k].optics), static_cast<int>(k));
+        QVERIFY(Fresnel(choices[k].optics).channels() >= 1);
+    }
+    QCOMPARE(choices.front().label, QString("Perfect mirrors"));
+    QCOMPARE(choices.back().label, QString("Half mirrors"));
+    QVERIFY(choices.back().optics.fresnel == kind);
+    QCOMPARE(choices.back().optics.ior, std::vector<double>{1.5});
+
+    OpticsSettings given;
+    given.fresnel = FresnelKind::Conductor;
+    given.ior = {0.2};
+    given.k = {3};
+    QCOMPARE(facet_choice_of(choices, given), -1);
 }
 
 }  // namespace asperity::studio

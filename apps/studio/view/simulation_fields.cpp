@@ -1,54 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulation_fields.h"
 
+#include "../model/facet_choices.h"
 #include "../model/settings_keys.h"
 #include "param_control.h"
 
 #include <asperity/gonio/experiment.h>
-#include <asperity/optics/materials.h>
 
 #include <QSignalBlocker>
 
 #include <cmath>
+#include <memory>
+#include <vector>
 
 namespace asperity::studio {
 
 namespace {
-
-/// The list of facets begins with the kinds that are no metals; the metals are those of
-/// materials().
-enum Facets { kMirrors, kSchlick, kDielectric, kFirstMetal };
-
-int facets_of(const OpticsSettings& optics) {
-    switch (optics.fresnel) {
-        case FresnelKind::None:
-            return kMirrors;
-        case FresnelKind::Schlick:
-            return kSchlick;
-        case FresnelKind::Dielectric:
-            return kDielectric;
-        case FresnelKind::Conductor:
-            for (std::size_t metal = 0; metal < materials().size(); ++metal)
-                if (optics.material == materials()[metal].symbol)
-                    return kFirstMetal + static_cast<int>(metal);
-    }
-    return -1;  // a conductor of given indices: from a session, no entry of the list
-}
-
-OpticsSettings optics_of(int facets) {
-    OpticsSettings optics;
-    if (facets == kSchlick) {
-        optics.fresnel = FresnelKind::Schlick;
-        optics.f0 = {0.04};
-    } else if (facets == kDielectric) {
-        optics.fresnel = FresnelKind::Dielectric;
-        optics.ior = {1.5};
-    } else if (facets >= kFirstMetal) {
-        optics.fresnel = FresnelKind::Conductor;
-        optics.material = materials()[static_cast<std::size_t>(facets - kFirstMetal)].symbol;
-    }
-    return optics;
-}
 
 /// Shown digits end here; files may hold fewer rays a cell.
 constexpr double kLeastJitter = 0.001;
@@ -147,12 +114,8 @@ void SimulationFields::add_layer() {
 
 void SimulationFields::add_facets() {
     auto* facets = new QComboBox;
-    facets->addItems({tr("Perfect mirrors"), tr("Schlick, F0"), tr("Dielectric, index")});
-    const auto text = [](std::string_view s) {
-        return QString::fromUtf8(s.data(), static_cast<qsizetype>(s.size()));
-    };
-    for (const TabulatedMaterial& metal : materials())
-        facets->addItem(QString("%1 (%2)").arg(text(metal.name), text(metal.symbol)));
+    const auto choices = std::make_shared<const std::vector<FacetChoice>>(facet_choices());
+    for (const FacetChoice& choice : *choices) facets->addItem(choice.label);
     add_named_row(
         tr("Facets"), facets,
         tr("How much a facet reflects: all (the thesis), Schlick's approximation (thesis eq. "
@@ -160,8 +123,13 @@ void SimulationFields::add_facets() {
     lock_.add(facets);
     bindings_.bind(
         facets, tr("Facets"),
-        [](const StudioSettings& s) { return facets_of(s.experiment.optics); },
-        [](StudioSettings& s, int index) { s.experiment.optics = optics_of(index); });
+        [choices](const StudioSettings& s) {
+            return facet_choice_of(*choices, s.experiment.optics);
+        },
+        [choices](StudioSettings& s, int index) {
+            if (index >= 0)
+                s.experiment.optics = choices->at(static_cast<std::size_t>(index)).optics;
+        });
 
     const auto first = [](const std::vector<double>& list, double otherwise) {
         return list.empty() ? otherwise : list.front();
@@ -185,9 +153,13 @@ void SimulationFields::add_facets() {
         [first](const StudioSettings& s) { return first(s.experiment.optics.ior, 1.5); },
         [](StudioSettings& s, double value) { s.experiment.optics.ior = {value}; });
     bindings_.follow([this, f0, index](const StudioSettings& settings) {
-        const int kind = facets_of(settings.experiment.optics);
-        form().setRowVisible(f0, kind == kSchlick);
-        form().setRowVisible(index, kind == kDielectric);
+        // A law that a program added has what it was chosen with
+        const OpticsSettings& optics = settings.experiment.optics;
+        const bool added = optics.fresnel > FresnelKind::Conductor;
+        form().setRowVisible(
+            f0, optics.fresnel == FresnelKind::Schlick || (added && !optics.f0.empty()));
+        form().setRowVisible(
+            index, optics.fresnel == FresnelKind::Dielectric || (added && !optics.ior.empty()));
     });
 
     auto* isotropic = new QCheckBox(tr("Light from all azimuths"));
