@@ -19,6 +19,7 @@
 #include <asperity/fit/verdict.h>
 #include <asperity/formats/bsdfs/bsdf_format.h>
 #include <asperity/formats/results/result_file.h>
+#include <shared/write_materialx.h>
 #include <shared/write_residuals.h>
 
 #include <fmt/format.h>
@@ -170,7 +171,7 @@ class FitVerb {
         else
             write_out(text_of_report(report, data) + (hint_.empty() ? "" : hint_ + "\n"));
         if (png_->count() > 0) write_residuals(data, report.fits.front(), text_of(png_));
-        if (mtlx_->count() > 0) write_materialx(report);
+        if (mtlx_->count() > 0) write_first_ggx(report);
         return 0;
     }
 
@@ -221,13 +222,9 @@ class FitVerb {
         return fit_data(measurement, settings.light, last);
     }
 
-    void write_materialx(const FitReport& report) const {
+    void write_first_ggx(const FitReport& report) const {
         for (const Fit& fit : report.fits) {
-            if (!fit.spec.starts_with("ggx:")) continue;
-            const io::ExportSource source(parse_brdf_spec(fit.spec), Experiment{}, 1);
-            const io::BsdfFormats formats;
-            formats.find("materialx")->write(source, io::FormatOptions({}, ""), text_of(mtlx_));
-            return;
+            if (fit.spec.starts_with("ggx:")) return write_materialx(fit, text_of(mtlx_));
         }
         throw Error(ErrorCode::Usage, "needs ggx among the models: OpenPBR has no other facets",
                     "mtlx");

@@ -7,6 +7,8 @@
 #include "view/model_scene.h"
 #include "view/plot_overlays.h"
 
+#include <shared/write_materialx.h>
+
 #include <QClipboard>
 
 namespace asperity::studio::testing {

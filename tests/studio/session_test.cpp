@@ -334,6 +334,10 @@ void SessionTest::facets_to_choose_are_all_laws() {
     given.ior = {0.2};
     given.k = {3};
     QCOMPARE(facet_choice_of(choices, given), -1);
+    // A name that decides nothing does not matter
+    OpticsSettings mirrors;
+    mirrors.material = "Au";
+    QCOMPARE(facet_choice_of(choices, mirrors), 0);
 }
 
 }  // namespace asperity::studio

@@ -64,7 +64,9 @@ std::vector<FacetChoice> facet_choices() {
 
 int facet_choice_of(const std::vector<FacetChoice>& choices, const OpticsSettings& optics) {
     const auto found = std::find_if(choices.begin(), choices.end(), [&](const FacetChoice& choice) {
-        return choice.optics.fresnel == optics.fresnel && choice.optics.material == optics.material;
+        return choice.optics.fresnel == optics.fresnel &&
+               (optics.fresnel != FresnelKind::Conductor ||
+                choice.optics.material == optics.material);
     });
     return found == choices.end() ? -1 : static_cast<int>(found - choices.begin());
 }

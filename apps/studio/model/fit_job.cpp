@@ -3,10 +3,8 @@
 
 #include "model_settings.h"
 
-#include <asperity/bsdf/spec.h>
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
-#include <asperity/formats/bsdfs/bsdf_format.h>
 #include <asperity/optics/optics_params.h>
 
 #include <QObject>
@@ -97,12 +95,6 @@ FitOutcome fit_brdf(const FitWish& wish, Run& run) {
 
 bool fits_materialx(const Fit& fit) {
     return fit.spec.starts_with("ggx:") && fit.spec.find(",lambert=") == fit.spec.npos;
-}
-
-void write_materialx(const Fit& fit, const std::string& path) {
-    const io::ExportSource source(parse_brdf_spec(fit.spec), Experiment{}, 1);
-    const io::BsdfFormats formats;
-    formats.find("materialx")->write(source, io::FormatOptions({}, ""), path);
 }
 
 void put_in_plots(StudioSettings& settings, const std::string& spec,

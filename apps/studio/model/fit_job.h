@@ -31,9 +31,6 @@ FitOutcome fit_brdf(const FitWish& wish, Run& run);
 
 /// True for a fit that MaterialX can hold: ggx without a diffuse part.
 bool fits_materialx(const Fit& fit);
-/// As `asperity fit --mtlx` has it. Throws Error(Usage, "format") for other fits, what writing
-/// throws.
-void write_materialx(const Fit& fit, const std::string& path);
 
 /// Draws the model of a specification in the plots, with just its settings; the others keep the
 /// widths they have. `surface_alpha`: that of models that follow the surface.

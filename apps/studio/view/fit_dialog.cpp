@@ -10,6 +10,7 @@
 
 #include <asperity/bsdf/bsdf_models.h>
 
+#include <shared/write_materialx.h>
 #include <shared/write_residuals.h>
 
 #include <QClipboard>
