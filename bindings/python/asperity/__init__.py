@@ -18,24 +18,23 @@ the mean normal; a BRDF never includes the cosine.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from . import _core
 
-from . import _core, _made
-from ._bsdf import Bsdf, OwnBsdf, bsdf
-from ._compare import Comparison, compare
-from ._errors import Error, ErrorCode, StoppedWarning
-from ._export import Export, Fidelity
-from ._fit import Fit, FitReport, fit
-from ._measurement import Measurement, load, measure, merge
-from ._render import light, render, tonemap
-from ._made import *
-from ._run import Progress
-from ._surface import Surface, from_array, read, surface
-from ._sweep import Sweep, sweep
-from ._tables import bsdf_formats, bsdf_models, heights_formats, materials, scene_models, settings, surface_kinds
-
+TYPE_CHECKING = False  # as in typing, which need not be loaded for it
 if TYPE_CHECKING:
     from . import plot
+    from ._bsdf import Bsdf, OwnBsdf, bsdf
+    from ._compare import Comparison, compare
+    from ._errors import Error, ErrorCode, StoppedWarning
+    from ._export import Export, Fidelity
+    from ._fit import Fit, FitReport, fit
+    from ._made import *
+    from ._measurement import Measurement, load, measure, merge
+    from ._render import light, render, tonemap
+    from ._run import Progress
+    from ._surface import Surface, from_array, read, surface
+    from ._sweep import Sweep, sweep
+    from ._tables import bsdf_formats, bsdf_models, heights_formats, materials, scene_models, settings, surface_kinds
 
 __version__: str = _core.version
 
@@ -44,17 +43,31 @@ __all__ = [
     "StoppedWarning", "Surface", "Sweep", "bsdf", "bsdf_formats", "bsdf_models", "compare", "fit", "from_array",
     "heights_formats", "light", "load", "materials", "measure", "merge", "plot", "read", "render", "scene_models", "settings",
     "surface", "surface_kinds", "sweep", "tonemap"]
-__all__ += _made.__all__
 
+# Names are loaded by who uses them: the import itself loads the library and not even NumPy.
+_HOMES = {
+    "_bsdf": ("Bsdf", "OwnBsdf", "bsdf"), "_compare": ("Comparison", "compare"),
+    "_errors": ("Error", "ErrorCode", "StoppedWarning"), "_export": ("Export", "Fidelity"),
+    "_fit": ("Fit", "FitReport", "fit"), "_measurement": ("Measurement", "load", "measure", "merge"),
+    "_render": ("light", "render", "tonemap"), "_run": ("Progress",),
+    "_surface": ("Surface", "from_array", "read", "surface"), "_sweep": ("Sweep", "sweep"),
+    "_tables": ("bsdf_formats", "bsdf_models", "heights_formats", "materials", "scene_models", "settings", "surface_kinds"),
+    "_made": tuple(kind["name"].replace("-", "_") for kind in _core.surface_kinds())}
+_HOME = {name: home for home, names in _HOMES.items() for name in names}
 
 if not TYPE_CHECKING:
-    def __getattr__(name: str) -> Any:
-        # matplotlib is loaded by who plots, not by who measures
-        if name == "plot":
-            import importlib
+    __all__ += _HOMES["_made"]
 
+    def __getattr__(name: str) -> object:
+        import importlib
+
+        if name == "plot":
             return importlib.import_module("asperity.plot")
-        raise AttributeError(f"module 'asperity' has no attribute {name!r}")
+        if name not in _HOME:
+            raise AttributeError(f"module 'asperity' has no attribute {name!r}")
+        value = getattr(importlib.import_module(f"asperity.{_HOME[name]}"), name)
+        globals()[name] = value
+        return value
 
 
 def __dir__() -> list[str]:

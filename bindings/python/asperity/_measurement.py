@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import functools
 import os
-import tempfile
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -270,6 +269,8 @@ class Measurement:
         return hash(self.checksum)
 
     def __reduce__(self) -> Any:
+        import tempfile
+
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "m.asperity")
             self.save(path)
@@ -294,6 +295,8 @@ class Measurement:
 
 
 def _from_bytes(data: bytes) -> Measurement:
+    import tempfile
+
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "m.asperity")
         with open(path, "wb") as file:

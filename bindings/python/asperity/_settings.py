@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import difflib
 import functools
 import numbers
 from collections.abc import Iterable, Mapping
@@ -39,6 +38,8 @@ MEASURE_GROUPS = ("Light", "Optics", "Rays", "Detector")
 
 def unknown_keyword(name: str, known: Iterable[str]) -> Error:
     """The error for a keyword that there is none of, with the one that was meant."""
+    import difflib
+
     names = sorted(known)
     near = difflib.get_close_matches(name, names, n=1, cutoff=0.7)
     near = near or [other for other in names if name in other.split("_")]

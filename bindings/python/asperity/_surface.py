@@ -3,11 +3,7 @@
 
 from __future__ import annotations
 
-import hashlib
-import html
 import os
-import pathlib
-import tempfile
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Union
 
@@ -146,6 +142,8 @@ class Surface:
 
 def html_table(rows: Sequence[Sequence[str]], head: Sequence[str] = ()) -> str:
     """A small table for notebooks."""
+    import html
+
     lines = ["<table>"]
     if head:
         lines.append("<tr>" + "".join(f"<th>{html.escape(c)}</th>" for c in head) + "</tr>")
@@ -156,10 +154,13 @@ def html_table(rows: Sequence[Sequence[str]], head: Sequence[str] = ()) -> str:
 
 def png_bytes(save: Any, *arguments: Any) -> bytes:
     """The bytes of the PNG that save(path, ...) writes."""
+    import tempfile
+
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "picture.png")
         save(path, *arguments)
-        return pathlib.Path(path).read_bytes()
+        with open(path, "rb") as file:
+            return file.read()
 
 
 def _load(texts: _settings.SettingTexts, progress: ProgressArgument, stop: StopArgument,
@@ -277,6 +278,8 @@ def _of_heights(heights: npt.NDArray[Any], spacing: tuple[float, float], unit: s
     if scale is not None:
         grid, dx, dy = grid * scale, dx * scale, dy * scale
     if name is None:
+        import hashlib
+
         digest = hashlib.sha256(grid.tobytes() + repr((grid.shape, dx, dy, unit)).encode()).hexdigest()
         name = f"array-{digest[:16]}"
     texts = _settings.texts_of(settings, file_keywords())

@@ -251,13 +251,21 @@ def test_other_processes_get_the_same(rough, method):
         assert pool.map_async(checksum_of, [rough] * 4).get(timeout=60) == [expected] * 4
 
 
+def loaded_by(code):
+    """What Python has loaded after some lines that it had not before."""
+    told = subprocess.run([sys.executable, "-c", f"import sys; before = set(sys.modules)\n{code}\nprint(*set(sys.modules) - before)"],
+                          check=True, capture_output=True, text=True).stdout
+    return set(told.split())
+
+
 def test_it_is_quickly_there():
-    """What the package adds to the time of NumPy's import; the best of three."""
-    code = ("import numpy, time; begin = time.perf_counter(); import asperity, sys; "
-            "print(time.perf_counter() - begin); assert 'matplotlib' not in sys.modules")
-    times = [float(subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout)
-             for _ in range(3)]
-    assert min(times) < 0.2
+    """The import loads the extension module, not even NumPy; to make a surface takes NumPy and no more."""
+    loaded = loaded_by("import asperity")
+    assert {name for name in loaded if name.startswith("asperity")} == {"asperity", "asperity._core", "asperity._errors"}
+    assert not loaded & {"numpy", "typing", "re", "inspect", "dataclasses", "pathlib", "json", "ctypes", "subprocess"}
+    loaded = loaded_by("import numpy, numpy.typing, sys; before = set(sys.modules); import asperity; asperity.flat(size=4)")
+    assert not loaded & {"json", "subprocess", "tempfile", "shutil", "pathlib", "hashlib", "html", "csv", "difflib", "queue",
+                         "multiprocessing", "concurrent.futures", "matplotlib", "xarray", "asperity._sweep"}
 
 
 def test_what_was_done_is_not_done_again(rough, large):
