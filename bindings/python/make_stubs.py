@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""make_stubs.py FILE: writes the stub of asperity._made, from the library's tables.
+"""make_stubs.py MADE CORE: writes the stub of asperity._made, from the library's tables, and finishes that of _core.
 
-A function for every kind of surface, and the keywords of measure() and read() with their types."""
+_made has a function for every kind of surface, and the keywords of measure() and read() with their types. What stubgen
+writes of _core has containers without the types of what they hold, which strict type checkers refuse."""
 
 from __future__ import annotations
 
+import re
 import sys
 from typing import Any
 
@@ -48,6 +50,12 @@ def main() -> None:
              keywords("SurfaceSettings", "Keywords of surface().", every)]
     with open(sys.argv[1], "w", encoding="utf-8") as file:
         file.write("\n\n".join(parts))
+    with open(sys.argv[2], encoding="utf-8") as file:
+        core = file.read()
+    for bare, whole in (("dict", "dict[str, Any]"), ("list", "list[Any]"), ("tuple", "tuple[Any, ...]")):
+        core = re.sub(rf"-> {bare}:", f"-> {whole}:", core)
+    with open(sys.argv[2], "w", encoding="utf-8") as file:
+        file.write("from typing import Any\n" + core)
 
 
 main()

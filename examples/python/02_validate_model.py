@@ -19,14 +19,14 @@ for alpha in alphas:
         print(f"alpha {alpha}, {theta:2.0f} degrees: albedo {m.albedo[k, 0]:.4f}, of one reflection {once[k]:.4f}, "
               f"model {c.albedo_b[k]:.4f}, L1 {c.l1[k]:.3f} (noise {c.l1_noise[k]:.3f})")
 
-missing = np.array(missing)
-assert np.all(missing[2] > missing[0]), "the rougher, the more light the model loses"
+lost = np.array(missing)
+assert np.all(lost[2] > lost[0]), "the rougher, the more light the model loses"
 
 with asperity.plot.style("light"):
-    _, ax = pyplot.subplots(figsize=(4.8, 3.6))
-    for theta, column in zip((0, 45, 75), missing.T):
+    figure, ax = pyplot.subplots(figsize=(4.8, 3.6))
+    for theta, column in zip((0, 45, 75), lost.T):
         ax.plot(alphas, 100 * column, marker="o", label=f"{theta}°")
     ax.set_xlabel("α")
     ax.set_ylabel("light the model loses [%]")
     ax.legend()
-    ax.figure.savefig("validate_model.png")
+    figure.savefig("validate_model.png")

@@ -13,7 +13,7 @@ sweep = asperity.sweep({"surface": "gaussian", "size": 128, "material": "Cu", "a
 print(sweep.table_file, "has", len(sweep.table["alpha"]), "rows")
 
 with asperity.plot.style("light"):
-    _, ax = pyplot.subplots(figsize=(4.8, 3.6))
+    figure, ax = pyplot.subplots(figsize=(4.8, 3.6))
     asperity.plot.curves(sweep, "alpha", "albedo", by="theta_i_deg", ax=ax)
-    ax.figure.savefig("sweep.png")
+    figure.savefig("sweep.png")
 assert max(sweep.table["albedo"]) <= 1

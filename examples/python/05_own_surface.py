@@ -23,7 +23,7 @@ class TwoLobes:
     name = "two lobes"
     isotropic = False
 
-    def eval(self, wi, wo):
+    def eval(self, wi: np.ndarray, wo: np.ndarray) -> np.ndarray:
         wm = wi + wo
         wm /= np.linalg.norm(wm, axis=1, keepdims=True)
         tilt = np.radians(10)
@@ -31,7 +31,8 @@ class TwoLobes:
         for side in (-1, 1):
             facet = np.array([side * np.sin(tilt), 0, np.cos(tilt)])
             total += np.exp(-np.sum((wm - facet) ** 2, axis=1) / 0.02**2)
-        return total / (2 * np.pi * 0.02**2) / (4 * wo[:, 2] * wi[:, 2])
+        f: np.ndarray = total / (2 * np.pi * 0.02**2) / (4 * wo[:, 2] * wi[:, 2])
+        return f
 
 
 print(asperity.compare(m, TwoLobes()))

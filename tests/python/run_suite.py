@@ -10,7 +10,7 @@ import subprocess
 import sys
 import venv
 
-PACKAGES = ["numpy", "matplotlib", "xarray", "pytest", "mypy", "typing_extensions", "distributed", "scikit-build-core==1.1.2",
+PACKAGES = ["numpy", "matplotlib", "xarray", "pytest", "mypy", "typing_extensions", "distributed", "pyarrow", "scikit-build-core==1.1.2",
             "nanobind==3.1.0", "ninja"]
 
 source, build, work = (pathlib.Path(a) for a in sys.argv[1:4])

@@ -65,10 +65,12 @@ def main(arguments: list[str] | None = None) -> int:
     verb = verbs.add_parser("sweep", help="measure many experiments", epilog=_EPILOG,
                             formatter_class=argparse.RawDescriptionHelpFormatter)
     verb.add_argument("file", metavar="FILE.toml")
-    verb.add_argument("folder", metavar="FOLDER", help="where results and sweep.csv go")
+    verb.add_argument("folder", metavar="FOLDER", help="where results and the table go")
     verb.add_argument("--processes", type=int, default=1, help="at once, here")
     verb.add_argument("--threads", type=int, default=None, help="of each; no influence on the results")
     verb.add_argument("--part", metavar="K/N", default=None, help="only every N-th experiment, from the K-th on")
+    verb.add_argument("--table", metavar="NAME", default="sweep.csv",
+                      help="of the table: .csv, or .parquet, which needs pyarrow (default %(default)s)")
     verb.add_argument("--slurm", metavar="N", type=int, default=None,
                       help="measure nothing, print the script of an array of N Slurm jobs")
     options = parser.parse_args(arguments)
@@ -79,7 +81,8 @@ def main(arguments: list[str] | None = None) -> int:
             print(slurm_script(options.file, options.folder, options.slurm, options.threads or 1, "sweep.sh"), end="")
             return 0
         result = sweep(read_experiments(options.file), options.folder, processes=options.processes,
-                       threads=options.threads, part=options.part, progress=sys.stderr.isatty())
+                       threads=options.threads, part=options.part, table=options.table,
+                       progress=sys.stderr.isatty())
         print(f"{len(result)} experiments" + ("" if options.part else f", table {result.table_file}"))
     except Error as error:
         print(f"error: {error}", file=sys.stderr)

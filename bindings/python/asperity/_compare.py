@@ -85,7 +85,7 @@ def compare(a: Any, b: Any, *, threads: int | None = None, **settings: Any) -> C
     swap = (measured[1] and not measured[0]) or (own[0] and not own[1])
     if swap:
         sides.reverse()
-    d = _core.compare(*sides, texts, thread_count(threads))
+    d = _core.compare(sides[0], sides[1], texts, thread_count(threads))
     first, second = ("albedo_b", "albedo_a") if swap else ("albedo_a", "albedo_b")
     names = (name_of(a) if isinstance(a, (str, Measurement)) else name_of(a), name_of(b))
     return Comparison(*names, np.degrees(d["theta"]), np.degrees(d["phi"]), d[first], d[second], d["l1"],

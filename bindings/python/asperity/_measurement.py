@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from . import _core, _settings
 from ._errors import Error
-from ._run import ProgressArgument, StopArgument, Task, thread_count, warn_stopped
+from ._run import Counting, ProgressArgument, StopArgument, Task, thread_count, warn_stopped
 from ._surface import PathArgument, Surface, html_table, png_bytes
 
 if TYPE_CHECKING:
@@ -309,8 +309,9 @@ def measure_keywords() -> dict[str, str]:
     return _settings.keywords(_settings.MEASURE_GROUPS)
 
 
-def measure(surface: Surface, *, so_far: Measurement | None = None, part: str | None = None,
-            progress: ProgressArgument = False, stop: StopArgument = None, threads: int | None = None,
+def measure(surface: Surface, *, so_far: Measurement | None = None, part: str | None = None, client: Any = None,
+            parts: int | None = None, progress: ProgressArgument = False, stop: StopArgument = None,
+            threads: int | None = None,
             **settings: "Unpack[MeasureSettings]") -> Measurement:
     """Shoots light at a surface, follows it from facet to facet, and sorts what leaves by direction.
 
@@ -327,6 +328,10 @@ def measure(surface: Surface, *, so_far: Measurement | None = None, part: str | 
     `so_far` is a result of the same experiment, stopped perhaps, or measured to a looser `until`: what it holds is not
     done again, and the result has the bits of a run that did all of it. part="3/8" does the third of eight shares,
     counted from 1, which `asperity.merge()` adds up.
+
+    With a Dask `client` its workers do it, in `parts` shares (four a thread of theirs where not given), each with
+    `threads` (1); they are sent the surface, see no files, and may be killed. The bits are the same; `progress` counts
+    shares, and who stops gets those that are complete.
     """
     if not isinstance(surface, Surface):
         raise Error(f"a {type(surface).__name__} is no Surface: asperity.from_array() makes one of heights",
@@ -334,10 +339,22 @@ def measure(surface: Surface, *, so_far: Measurement | None = None, part: str | 
     texts = _settings.texts_of(settings, measure_keywords())
     if so_far is not None and not isinstance(so_far, Measurement):
         raise Error(f"a {type(so_far).__name__} is no Measurement", place="so_far")
-    number, parts = _share(part)
-    with Task(progress, stop) as task:
-        handle, interrupted = _core.measure(surface._handle, texts, thread_count(threads), task.callbacks,
-                                            so_far and so_far._handle, number, parts)
+    if client is not None:
+        if part is not None:
+            raise Error("a client's workers do all parts", place="part")
+        if parts is not None and (isinstance(parts, bool) or not isinstance(parts, int) or not 1 <= parts < 2**20):
+            raise Error(f"{parts!r} is not a whole number from 1", place="parts")
+        from ._cluster import measure_on_cluster
+
+        with Counting("parts", 0, progress, stop) as told:
+            handle, interrupted = measure_on_cluster(surface, texts, thread_count(threads or 1), client, parts, so_far, told)
+    elif parts is not None:
+        raise Error("is for the workers of a client; part=\"1/8\" measures a share here", place="parts")
+    else:
+        number, of = _share(part)
+        with Task(progress, stop) as task:
+            handle, interrupted = _core.measure(surface._handle, texts, thread_count(threads), task.callbacks,
+                                                None if so_far is None else so_far._handle, number, of)
     if interrupted:
         warn_stopped()
     return Measurement(handle)

@@ -119,7 +119,8 @@ def render(model: "str | os.PathLike[str]" = "ball", brdf: Any = "cook-torrance:
                                               settings, count, task.callbacks)
     if interrupted:
         warn_stopped()
-    return pixels
+    image: npt.NDArray[np.float32] = pixels
+    return image
 
 
 def tonemap(pixels: npt.ArrayLike, curve: str = "none", exposure: float = 0.0) -> npt.NDArray[np.uint8]:

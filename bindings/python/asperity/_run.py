@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numbers
 import sys
+import time
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -81,6 +82,37 @@ class Task:
     def __exit__(self, *_: object) -> None:
         if self._bar:
             self._bar.close()
+
+
+class Counting:
+    """Progress of what is done piece by piece, and the wish to stop it, as a context."""
+
+    def __init__(self, stage: str, total: int, progress: ProgressArgument, stop: StopArgument) -> None:
+        Task(progress, stop)  # checks them
+        self._bar = _Bar(sys.stderr) if progress is True else None
+        self._listener = self._bar or (progress if callable(progress) else None)
+        self.stop, self._stage, self._begin = stop, stage, time.monotonic()
+        self.count, self.total = 0, total
+
+    def __enter__(self) -> "Counting":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._bar:
+            self._bar.close()
+
+    def expect(self, more: int) -> None:
+        self.total += more
+
+    def done(self) -> None:
+        self.count += 1
+        if self._listener:
+            seconds = time.monotonic() - self._begin
+            left = seconds / self.count * (self.total - self.count)
+            self._listener(Progress(self._stage, self.count, self.total, seconds, left))
+
+    def wants_stop(self) -> bool:
+        return self.stop is not None and bool(self.stop())
 
 
 def thread_count(threads: int | None) -> int:

@@ -208,7 +208,7 @@ def read(path: PathArgument, *, progress: ProgressArgument = False, stop: StopAr
         return other
 
 
-def _read_by_surface_topography(path: str, error: Error, settings: dict[str, Any]) -> Surface | None:
+def _read_by_surface_topography(path: str, error: Error, settings: Mapping[str, Any]) -> Surface | None:
     """What SurfaceTopography makes of a file that no reader of ours knows; None without it."""
     from ._errors import ErrorCode
 

@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import itertools
 import os
 import queue
@@ -18,12 +16,12 @@ from typing import Any, Union
 
 import numpy as np
 
-from . import _jobs
+from . import _jobs, _sweep_table
 from ._errors import Error, ErrorCode
 from ._jobs import Job
 from ._measurement import Measurement, load
-from ._run import Progress, ProgressArgument, StopArgument, Task, _Bar
-from ._surface import PathArgument, Surface, html_table
+from ._run import Counting, ProgressArgument, StopArgument
+from ._surface import PathArgument, html_table
 
 Experiments = Union[Mapping[str, Any], Sequence[Mapping[str, Any]]]
 
@@ -54,6 +52,11 @@ class Sweep:
         pandas.DataFrame(sweep.table) takes it."""
         names = list(self._rows[0]) if self._rows else []
         return {name: [row[name] for row in self._rows] for name in names}
+
+    def save_table(self, path: PathArgument) -> None:
+        """Writes the table once more: .csv, or .parquet, which needs pyarrow (the extra [sweep]) and has types, units
+        and, where an experiment has no such keyword, missing values."""
+        _sweep_table.write(self._rows, os.fspath(path))
 
     def __repr__(self) -> str:
         wrong = sum(1 for e in self.errors if e)
@@ -91,8 +94,8 @@ def plan(experiments: Experiments, folder: str) -> tuple[list[dict[str, Any]], l
 
 def sweep(experiments: Experiments, folder: PathArgument, *, processes: int = 1, threads: int | None = None,
           client: Any = None, part: str | None = None, progress: ProgressArgument = False,
-          stop: StopArgument = None, on_error: str = "raise") -> Sweep:
-    """Measures many experiments into `folder`: one result file for each, and a table of all, sweep.csv.
+          stop: StopArgument = None, on_error: str = "raise", table: str = "sweep.csv") -> Sweep:
+    """Measures many experiments into `folder`: one result file for each, and a table of all.
 
     `experiments` is a list of dicts of keywords, or one dict, of which every list is an axis and every combination
     is measured: {"surface": "gaussian", "alpha": [0.1, 0.2], "theta_deg": [[0, 30, 60]]} is two experiments, each
@@ -106,6 +109,9 @@ def sweep(experiments: Experiments, folder: PathArgument, *, processes: int = 1,
     must see the same folder. part="3/32" measures every 32nd experiment from the third on, for arrays of jobs (see
     `python -m asperity sweep --help`), and writes no table: the whole sweep, once all parts are there, does.
 
+    `table` is its name in the folder: "sweep.csv", or for instance "sweep.parquet", which needs pyarrow (the extra
+    [sweep]); columns of Parquet have their types, and in their metadata unit and meaning.
+
     `progress` counts experiments. What fails does not keep the others from being measured; at the end the first
     error is raised, or with on_error="keep" told in `Sweep.errors`. Stopped by Ctrl-C it raises KeyboardInterrupt,
     by `stop` it raises Error (ErrorCode.STOPPED).
@@ -115,23 +121,24 @@ def sweep(experiments: Experiments, folder: PathArgument, *, processes: int = 1,
     if isinstance(processes, bool) or not isinstance(processes, int) or processes < 1:
         raise Error(f"{processes!r} is not a whole number from 1", place="processes")
     place = os.path.abspath(os.fspath(folder))
+    table_file = os.path.join(place, table)
+    _sweep_table.check_name(table_file)
     listed, jobs = plan(experiments, place)
     if part is not None:
         chosen = _part(part, len(jobs))
         listed, jobs = [listed[k] for k in chosen], [jobs[k] for k in chosen]
-    told = _Teller(len(jobs), progress, stop)
     unique = list({job.file: job for job in jobs}.values())
-    if client is not None:
-        wrong = _on_dask(client, unique, threads or 1, told)
-    else:
-        share = threads or max(1, (os.cpu_count() or 1) // processes)
-        wrong = _here(unique, share, told) if processes == 1 else _in_processes(unique, processes, share, told)
-    told.close()
+    with Counting("experiments", len(unique), progress, stop) as told:
+        if client is not None:
+            wrong = _on_dask(client, unique, threads or 1, told)
+        else:
+            share = threads or max(1, (os.cpu_count() or 1) // processes)
+            wrong = _here(unique, share, told) if processes == 1 else _in_processes(unique, processes, share, told)
     errors = [wrong.get(job.file, "") for job in jobs]
-    result = Sweep(listed, [job.file for job in jobs], errors, os.path.join(place, "sweep.csv"))
+    result = Sweep(listed, [job.file for job in jobs], errors, table_file)
     if part is None:
-        result._rows = _rows_of(listed, jobs, errors)
-        _jobs.write_whole(result.table_file, _csv(result._rows).encode())
+        result._rows = _sweep_table.rows_of(listed, jobs, errors)
+        result.save_table(table_file)
     failed = [(k, e) for k, e in enumerate(errors) if e]
     if failed and on_error == "raise":
         raise Error(f"{len(failed)} of {len(jobs)} failed, the first: {failed[0][1]}", ErrorCode.INVALID_INPUT,
@@ -146,41 +153,16 @@ def _part(part: str, count: int) -> range:
     return range(int(number) - 1, count, int(parts))
 
 
-class _Teller:
-    """Progress of a sweep, and the wish to stop it."""
-
-    def __init__(self, total: int, progress: ProgressArgument, stop: StopArgument) -> None:
-        Task(progress, stop)  # checks them
-        self._bar = _Bar(sys.stderr) if progress is True else None
-        self._listener = self._bar or (progress if callable(progress) else None)
-        self._stop, self._total, self._done, self._begin = stop, total, 0, time.monotonic()
-
-    def done(self) -> None:
-        self._done += 1
-        if self._listener:
-            seconds = time.monotonic() - self._begin
-            left = seconds / self._done * (self._total - self._done)
-            self._listener(Progress("experiments", self._done, self._total, seconds, left))
-
-    def wants_stop(self) -> bool:
-        return self._stop is not None and bool(self._stop())
-
-    def stopped(self) -> Error:
-        self.close()
-        return Error(f"stopped after {self._done} of {self._total} experiments; their results are kept",
-                     ErrorCode.STOPPED)
-
-    def close(self) -> None:
-        if self._bar:
-            self._bar.close()
+def _stopped(told: Counting) -> Error:
+    return Error(f"stopped after {told.count} of {told.total} experiments; their results are kept", ErrorCode.STOPPED)
 
 
-def _here(jobs: list[Job], threads: int, told: _Teller) -> dict[str, str]:
+def _here(jobs: list[Job], threads: int, told: Counting) -> dict[str, str]:
     wrong = {}
     for job in jobs:
         try:
-            if told.wants_stop() or not _jobs.run_job(job, threads, told._stop):
-                raise told.stopped()
+            if told.wants_stop() or not _jobs.run_job(job, threads, told.stop):
+                raise _stopped(told)
         except Error as error:
             if error.code == ErrorCode.STOPPED:
                 raise
@@ -189,7 +171,7 @@ def _here(jobs: list[Job], threads: int, told: _Teller) -> dict[str, str]:
     return wrong
 
 
-def _in_processes(jobs: list[Job], processes: int, threads: int, told: _Teller) -> dict[str, str]:
+def _in_processes(jobs: list[Job], processes: int, threads: int, told: Counting) -> dict[str, str]:
     """Each worker is a process with a thread here that feeds it."""
     waiting: "queue.SimpleQueue[Job]" = queue.SimpleQueue()
     for job in jobs:
@@ -225,7 +207,7 @@ def _in_processes(jobs: list[Job], processes: int, threads: int, told: _Teller) 
         done = 0
         while done < len(jobs):
             if told.wants_stop():
-                raise told.stopped()
+                raise _stopped(told)
             try:
                 job, answer = answers.get(timeout=0.1)
             except queue.Empty:
@@ -278,16 +260,21 @@ def _dask_job(text: str, threads: int) -> str:
         return str(error)
 
 
-def _on_dask(client: Any, jobs: list[Job], threads: int, told: _Teller) -> dict[str, str]:
+def _on_dask(client: Any, jobs: list[Job], threads: int, told: Counting) -> dict[str, str]:
+    from distributed.scheduler import KilledWorker
+
     futures = client.map(_dask_job, [job.to_json() for job in jobs], threads=threads, pure=False)
     wrong: dict[str, str] = {}
     try:
         for job, future in zip(jobs, futures):
             while not future.done():
                 if told.wants_stop():
-                    raise told.stopped()
+                    raise _stopped(told)
                 time.sleep(0.02)
-            answer = future.result()
+            try:
+                answer = future.result()
+            except KilledWorker as error:
+                answer = str(error)
             if answer:
                 wrong[job.file] = answer
             told.done()
@@ -295,43 +282,3 @@ def _on_dask(client: Any, jobs: list[Job], threads: int, told: _Teller) -> dict[
         client.cancel(futures)
         raise
     return wrong
-
-
-_FIGURES = ("rms_height", "rms_gradient", "alpha_x", "alpha_y", "area_ratio")
-
-
-def _plain(value: Any) -> Any:
-    """A value of an experiment as a cell of the table."""
-    if isinstance(value, (list, tuple, np.ndarray)):
-        return "/".join(str(_plain(v)) for v in np.asarray(value).tolist())
-    if isinstance(value, Surface):
-        return value.name
-    return value.item() if isinstance(value, np.generic) else value
-
-
-def _rows_of(experiments: list[dict[str, Any]], jobs: list[Job], errors: list[str]) -> list[dict[str, Any]]:
-    names = list(dict.fromkeys(name for e in experiments for name in e))
-    rows = []
-    for number, (experiment, job, error) in enumerate(zip(experiments, jobs, errors)):
-        if error:
-            continue
-        m = load(job.file)
-        inputs = {name: _plain(experiment.get(name, "")) for name in names}
-        figures = {f"surface_{name}": m.surface[name] for name in _FIGURES}
-        for k in range(m.layers):
-            for c, channel in enumerate(m.channel_names):
-                rows.append({"experiment": number, **inputs, **figures, "theta_i_deg": float(m.theta_deg[k]),
-                             "phi_i_deg": float(m.phi_deg[k]), "channel": channel,
-                             "albedo": float(m.albedo[k, c]), "albedo_stderr": float(m.albedo_stderr[k, c]),
-                             "absorbed": float(m.absorbed[k, c]), "truncated": float(m.truncated[k, c]),
-                             "rays": int(m.rays[k]), "file": os.path.basename(job.file), "checksum": m.checksum})
-    return rows
-
-
-def _csv(rows: list[dict[str, Any]]) -> str:
-    text = io.StringIO()
-    if rows:
-        writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-    return text.getvalue()

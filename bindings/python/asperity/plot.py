@@ -56,7 +56,7 @@ def use_style(name: str = "light") -> None:
     matplotlib.rcParams.update(_style(name))
 
 
-def _style(name: str) -> dict[str, Any]:
+def _style(name: str) -> dict[Any, Any]:
     if name not in ("light", "dark"):
         raise Error(f"{name!r} is none of light, dark", place="style")
     return {**_BOTH, **(_DARK if name == "dark" else _LIGHT)}
@@ -74,7 +74,7 @@ def _axes(ax: Axes | None, polar: bool = False) -> Axes:
 
 def _is_plain() -> bool:
     """matplotlib as it comes: whoever chose a style keeps it."""
-    return matplotlib.rcParams["axes.prop_cycle"] == matplotlib.rcParamsDefault["axes.prop_cycle"]
+    return bool(matplotlib.rcParams["axes.prop_cycle"] == matplotlib.rcParamsDefault["axes.prop_cycle"])
 
 
 def _channel(m: Measurement, channel: "int | str | None") -> int:
@@ -122,7 +122,7 @@ def lobe(m: Measurement, theta_deg: "float | Sequence[float] | None" = None, *, 
     if scale not in ("linear", "log"):
         raise Error(f"{scale!r} is none of linear, log", place="scale")
     axes = _axes(ax, polar)
-    angles = [theta_deg] if theta_deg is None or np.ndim(theta_deg) == 0 else list(theta_deg)  # type: ignore[arg-type,call-overload]
+    angles = [theta_deg] if theta_deg is None or np.ndim(theta_deg) == 0 else list(theta_deg)  # type: ignore[arg-type]
     values = "f_cos" if cosine else "f"
     artists: list[Union[Line2D, PolyCollection]] = []
     number, seen = _channel(m, channel), []
@@ -240,8 +240,8 @@ def albedo(m: Measurement, *, channel: "int | str | None" = None, groups: int = 
     all higher orders; bars are standard errors, dashed lines the albedos of models."""
     axes = _axes(ax)
     number = _channel(m, channel)
-    pick = (lambda a: a.mean(axis=1)) if number < 0 else (lambda a: a[:, number])
-    shares, total, error = pick(m.albedo_by_bounce), pick(m.albedo), pick(m.albedo_stderr)
+    shares, total, error = (a.mean(axis=1) if number < 0 else a[:, number]
+                            for a in (m.albedo_by_bounce, m.albedo, m.albedo_stderr))
     groups = min(groups, shares.shape[1])
     parts = np.column_stack([shares[:, :groups - 1], shares[:, groups - 1:].sum(axis=1)])
     order = np.argsort(m.theta_deg, kind="stable")

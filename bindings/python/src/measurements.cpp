@@ -41,10 +41,12 @@ Experiment experiment_of(const SurfaceSettings& surface, const SettingTexts& tex
     return experiment;
 }
 
-/// `so_far` and `part` of `parts` as MeasureScope has them.
+/// `so_far`, `part` of `parts` and `leave_out` as MeasureScope has them. A share, which may be
+/// nothing, may also be stopped before it has anything.
 nb::tuple run_measurement(const SurfaceHandle& surface, const SettingTexts& texts, int threads,
                           const Callbacks& callbacks,
-                          const std::optional<MeasurementHandle>& so_far, int part, int parts) {
+                          const std::optional<MeasurementHandle>& so_far, int part, int parts,
+                          bool leave_out) {
     const Experiment experiment = experiment_of(surface.settings, texts);
     validate(experiment);
     Run run(threads);
@@ -53,10 +55,11 @@ nb::tuple run_measurement(const SurfaceHandle& surface, const SettingTexts& text
         if (so_far) scope.so_far = *so_far->measurement;
         scope.part = part;
         scope.parts = parts;
+        scope.leave_out_so_far = leave_out;
         return std::make_shared<const Measurement>(
             measure(*surface.heights, experiment, run, {}, std::move(scope)));
     });
-    if (outcome.value->stopped && outcome.value->layers.empty()) {
+    if (outcome.value->stopped && outcome.value->layers.empty() && !leave_out) {
         if (!outcome.interrupted)
             throw Error(ErrorCode::Stopped, "stopped before anything was complete");
         PyErr_SetNone(PyExc_KeyboardInterrupt);
@@ -71,6 +74,37 @@ MeasurementHandle merged(const std::vector<MeasurementHandle>& parts) {
     for (std::size_t k = 0; k < parts.size(); ++k)
         merge.add(*parts[k].measurement, "part " + std::to_string(k));
     return {std::make_shared<const Measurement>(merge.finish())};
+}
+
+/// What the parts of a round go on from, which may have been asked for less.
+void add_so_far(Merge& merge, const MeasurementHandle& so_far, const SurfaceHandle& surface,
+                const SettingTexts& texts) {
+    const RunSettings run = experiment_of(surface.settings, texts).run;
+    Measurement before = *so_far.measurement;
+    before.experiment.run.until = run.until;
+    before.experiment.run.until_cells = run.until_cells;
+    before.experiment.run.max_rays = run.max_rays;
+    merge.add(std::move(before), "so_far");
+}
+
+/// The sum of all parts of a round; and whether it is all that the experiment asks for.
+nb::tuple finished(Merge& merge) {
+    bool all = false;
+    std::shared_ptr<const Measurement> sum;
+    {
+        const nb::gil_scoped_release free;
+        Measurement whole = merge.finish();
+        all = complete(whole);
+        sum = std::make_shared<const Measurement>(std::move(whole));
+    }
+    return nb::make_tuple(MeasurementHandle{std::move(sum)}, all);
+}
+
+/// The settings of the measurement, checked; the surface is there.
+void check_settings(const SurfaceHandle& surface, const SettingTexts& texts) {
+    const Experiment experiment = experiment_of(surface.settings, texts);
+    validate(experiment);
+    const Fresnel checked(experiment.optics);
 }
 
 nb::dict experiment_dict(const Experiment& experiment) {
@@ -178,8 +212,23 @@ void add_measurements(nb::module_& module) {
     module.def("is_result", [](const std::string& path) { return io::looks_like_result(path); });
     module.def("measure", run_measurement, nb::arg("surface"), nb::arg("settings"),
                nb::arg("threads"), nb::arg("callbacks"), nb::arg("so_far").none() = nb::none(),
-               nb::arg("part") = 1, nb::arg("parts") = 1);
+               nb::arg("part") = 1, nb::arg("parts") = 1, nb::arg("leave_out") = false);
+    module.def("check_settings", check_settings, nb::arg("surface"), nb::arg("settings"));
     module.def("merge", merged, nb::arg("parts"));
+    nb::class_<Merge>(module, "Merge", "Adds up parts that come one by one.")
+        .def(nb::init<>())
+        .def("add",
+             [](Merge& merge, const MeasurementHandle& part, const std::string& name) {
+                 const nb::gil_scoped_release free;
+                 merge.add(*part.measurement, name);
+             })
+        .def("add_so_far", add_so_far)
+        .def("finish", finished)
+        .def("unfinished", [](Merge& merge) {
+            const nb::gil_scoped_release free;
+            return MeasurementHandle{
+                std::make_shared<const Measurement>(std::move(merge).unfinished())};
+        });
     module.def("experiment_text", experiment_text, nb::arg("surface"), nb::arg("settings"));
 }
 

@@ -51,6 +51,34 @@ def test_every_combination_is_measured_once(tmp_path):
     assert len(artists) == 2
 
 
+def test_the_table_as_parquet(tmp_path, monkeypatch):
+    pq = pytest.importorskip("pyarrow.parquet")
+    experiments = [{**SMALL, "theta_deg": [0, 40], "alpha": 0.2, "until": 0.5}, {**SMALL, "alpha": 1, "until": "0.5,0.9", "theta_deg": 7, "material": "Au"}]
+    s = asperity.sweep(experiments, tmp_path, table="t.parquet")
+    assert s.table_file == str(tmp_path / "t.parquet") and not (tmp_path / "sweep.csv").exists()
+    back = pq.read_table(s.table_file)
+    assert back.column_names == list(s.table) and back.num_rows == 2 + 3
+    for name, values in s.table.items():
+        there = back[name].to_pylist()
+        if name in ("theta_deg", "until", "material"):  # a list and a number, and one that has none
+            values = [None if v == "" else str(v) for v in values]
+        assert there == values, name
+    types = {f.name: str(f.type) for f in back.schema}
+    assert (types["alpha"], types["size"], types["albedo"], types["surface"]) == ("double", "int64", "double", "string")
+    meta = {f.name: f.metadata or {} for f in back.schema}
+    assert meta["theta_deg"][b"unit"] == b"degrees" and meta["theta_i_deg"][b"unit"] == b"degrees"
+    assert b"rough" in meta["alpha"][b"doc"].lower() or b"slope" in meta["alpha"][b"doc"].lower()
+    assert back["material"].to_pylist() == [None, None, "Au", "Au", "Au"]
+    # Afterwards, and the same bytes
+    s.save_table(tmp_path / "again.parquet")
+    assert (tmp_path / "again.parquet").read_bytes() == pathlib.Path(s.table_file).read_bytes()
+    refused(lambda: asperity.sweep(SMALL, tmp_path, table="t.xlsx"), ErrorCode.USAGE, ".csv or .parquet")
+    # Without pyarrow it is said before anything is measured
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    error = refused(lambda: asperity.sweep(SMALL, tmp_path / "none", table="t.parquet"), ErrorCode.USAGE, "pyarrow")
+    assert error.place.endswith("t.parquet") and not (tmp_path / "none").exists()
+
+
 def test_a_damaged_or_foreign_file_is_measured_again(tmp_path):
     s = asperity.sweep({**SMALL, "alpha": [0.1, 0.2]}, tmp_path)
     right = checksums(tmp_path)
@@ -170,6 +198,8 @@ def test_parts_make_the_whole(tmp_path):
     after = contents(tmp_path / "parts")
     assert {n: after[n] for n in before} == before
     assert after["sweep.csv"] == contents(tmp_path / "whole")["sweep.csv"]
+    assert asperity_sweep(tmp_path / "parts", "--table", "t.parquet").returncode == 0
+    assert (tmp_path / "parts" / "t.parquet").read_bytes()[:4] == b"PAR1"
     told = asperity_sweep(tmp_path, "--part", "5/4")
     assert told.returncode == 2 and "K/N" in told.stderr and told.stderr.count("\n") == 1
     plan.write_text("surface = ")
@@ -179,21 +209,84 @@ def test_parts_make_the_whole(tmp_path):
     assert asperity_sweep(tmp_path).returncode == 4
 
 
-def test_on_dask(tmp_path):
+@pytest.fixture(scope="module")
+def cluster():
+    """Two workers; one that is killed is started anew."""
     distributed = pytest.importorskip("distributed")
-    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, \
-            distributed.Client(cluster) as client:
-        experiments = {**SMALL, "alpha": list(np.linspace(0.1, 1, 20))}
-        killed = next(iter(client.run(os.getpid).values()))
-        asked = []
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        yield cluster
 
-        def kill_one():
-            if len(asked) == 3:
-                os.kill(killed, signal.SIGKILL)
-            asked.append(1)
-            return False
 
-        there = asperity.sweep(experiments, tmp_path / "dask", client=client, stop=kill_one)
+@pytest.fixture
+def client(cluster):
+    import distributed
+
+    with distributed.Client(cluster) as client:
+        client.wait_for_workers(2)
+        yield client
+
+
+class KillOne:
+    """A `stop` that kills a worker when it is asked for the third time."""
+
+    def __init__(self, client):
+        self.worker, self.asked = next(iter(client.run(os.getpid).values())), 0
+
+    def __call__(self):
+        self.asked += 1
+        if self.asked == 3:
+            os.kill(self.worker, signal.SIGKILL)
+        return False
+
+
+def test_on_dask(tmp_path, client):
+    experiments = {**SMALL, "alpha": list(np.linspace(0.1, 1, 20))}
+    there = asperity.sweep(experiments, tmp_path / "dask", client=client, stop=KillOne(client))
     here = asperity.sweep(experiments, tmp_path / "here")
     assert checksums(tmp_path / "dask") == checksums(tmp_path / "here")
     assert there.table == here.table
+
+
+def test_one_measurement_on_dask(client):
+    """In rounds until an error is reached, a worker killed meanwhile; and gone on with."""
+    rough = asperity.thesis(size=96, roughness=0.5)
+    settings = dict(theta_deg=[0, 50], material="Au", resolution=16, rays=50_000, bounces=4)
+    fine, loose = (0.001, 0.15), (0.01, 0.5)
+    here = asperity.measure(rough, **settings, until=fine)
+    assert here.rays.max() > 100_000
+    heard, kill = [], KillOne(client)
+    there = asperity.measure(rough, **settings, until=fine, client=client, parts=6, progress=heard.append, stop=kill)
+    assert kill.asked > 3 and not os.path.exists(f"/proc/{kill.worker}")
+    assert there.checksum == here.checksum and there.notes == here.notes and not there.stopped
+    assert heard[-1].stage == "parts" and heard[-1].done == heard[-1].total > 6
+    np.testing.assert_array_equal(there.stderr, here.stderr)
+    # To a looser error first, then the rest
+    before = asperity.measure(rough, **settings, until=loose, client=client)
+    assert asperity.measure(rough, **settings, until=fine, so_far=before, client=client, parts=3).checksum == here.checksum
+    # An array of one's own, whose heights the workers get
+    own = asperity.from_array(np.array(rough.heights)[:32, :32], tiling="mirror")
+    assert asperity.measure(own, theta_deg=20, client=client).checksum == asperity.measure(own, theta_deg=20).checksum
+
+
+def test_a_measurement_on_dask_stops(client):
+    large = asperity.thesis(size=128, roughness=0.5)
+    settings = dict(theta_deg=[0], resolution=16, rays=2**27, batches=256, bounces=4)
+    heard, begin = [], []
+
+    def enough():
+        if heard and not begin:
+            begin.append(time.perf_counter())
+        return bool(heard)
+
+    some = asperity.measure(large, **settings, client=client, parts=256, progress=heard.append, stop=enough)
+    assert time.perf_counter() - begin[0] < 0.5  # of a cluster; other tests run beside this one
+    assert some.stopped and some.layers == 1 and 0 < some.rays[0] < 2**27
+    deadline = time.monotonic() + 5
+    while any(client.processing().values()) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    assert not any(client.processing().values()), "workers go on with what nobody wants"
+    refused(lambda: asperity.measure(large, **settings, client=client, stop=lambda: True), ErrorCode.STOPPED, "anything")
+    refused(lambda: asperity.measure(large, theta_deg=[0], part="1/2", client=client), ErrorCode.USAGE, "all parts")
+    refused(lambda: asperity.measure(large, theta_deg=[0], parts=2), ErrorCode.USAGE, "client")
+    refused(lambda: asperity.measure(large, theta_deg=[0], parts=0, client=client), ErrorCode.USAGE, "whole number")
+    refused(lambda: asperity.measure(large, theta_deg=[0], until=3, client=client), ErrorCode.USAGE, "until")

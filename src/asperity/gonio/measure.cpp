@@ -58,6 +58,7 @@ class Gonioreflectometer {
     /// Decides which batches are to do.
     void plan(MeasureScope scope) {
         note_scope(head_, scope);
+        all_of_it_ = scope.parts == 1 && !(scope.so_far && scope.leave_out_so_far);
         layers_.plan(scope);
         for (std::size_t k = 0; k < layers_.size(); ++k)
             if (layers_[k].to_do().empty())
@@ -156,7 +157,7 @@ class Gonioreflectometer {
     /// All batches so far are done: refines the layer until its errors are small enough.
     void extend_or_close(LayerSchedule& schedule, std::size_t number) {
         const std::size_t k = open_[number];
-        if (const std::uint64_t more = head_.parts == 1 ? layers_[k].refine() : 0) {
+        if (const std::uint64_t more = all_of_it_ ? layers_[k].refine() : 0) {
             run_.set_total(rays_ahead_ += more * plan_.largest());
             schedule.extend(number, more);
             return;
@@ -165,10 +166,10 @@ class Gonioreflectometer {
         schedule.close();
     }
 
-    /// Hands the layer over, if it holds enough to tell errors: of a part whatever it holds.
+    /// Hands the layer over, if it holds enough to tell errors: what is a part whatever it holds.
     void complete(std::size_t k) {
         Layer layer;
-        if (layers_[k].write(layer, head_.parts > 1 ? 1 : 2)) {
+        if (layers_[k].write(layer, all_of_it_ ? 2 : 1)) {
             check_account(layer, shape_);
             report_.complete(k, std::move(layer));
         }
@@ -206,6 +207,7 @@ class Gonioreflectometer {
     const BatchPlan plan_;
     LayersInWork layers_;
     std::vector<std::size_t> open_;  ///< layers in which something is to do
+    bool all_of_it_ = true;          ///< what comes out is not to be added to anything
     LayerReport report_;
     CheckpointClock checkpoint_clock_;
     std::atomic<std::uint64_t> rays_ahead_ = 0;

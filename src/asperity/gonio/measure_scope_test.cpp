@@ -125,24 +125,57 @@ TEST(MeasureScope, RefiningGivesWhatAskingAtOnceGives) {
 TEST(MeasureScope, RoundsOfPartsReachTheSameAccuracy) {
     const Heightfield surface = test::noise(64, 2);
     const Experiment e = until(surface, experiment(), 0.3);
-    Measurement so_far;
-    for (int round = 0;; ++round) {
-        ASSERT_LT(round, 12);
-        Merge merge;
-        bool more = false;
-        if (round > 0) merge.add(so_far, "so far");
-        for (int k = 1; k <= 3; ++k) {
-            MeasureScope scope{.part = k, .parts = 3, .leave_out_so_far = true};
-            if (round > 0) scope.so_far = so_far;
-            const Measurement part = measured(surface, e, std::move(scope));
-            more = more || !part.layers.empty();
-            merge.add(part, "part");
-        }
-        so_far = merge.finish();
-        if (!more) break;
+    const Measurement at_once = measured(surface, e);
+    ASSERT_GT(at_once.layers.back().batches, 16);
+    for (const int parts : {1, 3, 40}) {
+        // A single machine, that has no others to wait for, refines from what it has to go on from
+        Measurement so_far = measured(surface, experiment());
+        so_far.experiment.run.until = e.run.until;
+        so_far.experiment.run.until_cells = e.run.until_cells;
+        int round = 0;
+        do {
+            ASSERT_LT(round, 12);
+            Merge merge;
+            merge.add(so_far, "so far");
+            for (int k = 1; k <= parts; ++k) {
+                MeasureScope scope{so_far, k, parts, true};
+                merge.add(measured(surface, e, std::move(scope)), "part");
+            }
+            so_far = merge.finish();
+            ++round;
+        } while (!complete(so_far));
+        EXPECT_GT(round, 1);
+        expect_same_bits(so_far, at_once);
     }
-    EXPECT_GT(so_far.layers.back().batches, 16);
-    expect_same_bits(so_far, measured(surface, e));
+}
+
+/// An accuracy that the limit leaves out of reach is told, as one run tells it.
+TEST(MeasureScope, RoundsOfPartsSayWhatWasNotReached) {
+    const Heightfield surface = test::noise(64, 2);
+    Experiment e = experiment();
+    e.run.until = 1e-5;
+    e.run.max_rays = 50000;
+    const Measurement at_once = measured(surface, e);
+    ASSERT_FALSE(at_once.notes.empty());
+    Measurement so_far = at_once;
+    so_far.notes.clear();
+    EXPECT_TRUE(complete(so_far));
+    EXPECT_EQ(so_far.notes, at_once.notes);
+}
+
+TEST(MeasureScope, PartsThatAreNotAllThereAreGoneOnFrom) {
+    const Heightfield surface = test::noise(64, 2);
+    const Experiment e = experiment();
+    Merge merge;
+    for (const int k : {4, 2}) merge.add(measured(surface, e, {.part = k, .parts = 5}), "part");
+    Measurement some = Merge(merge).unfinished();
+    EXPECT_TRUE(some.stopped && !complete(some));
+    EXPECT_FALSE(some.layers.empty());
+    expect_same_result(measured(surface, e, {.so_far = some}), measured(surface, e));
+    merge.add(measured(surface, e, {.so_far = some, .leave_out_so_far = true}), "the rest");
+    Measurement whole = merge.finish();
+    expect_same_bits(whole, measured(surface, e));
+    EXPECT_TRUE(complete(whole));
 }
 
 /// A row that a program adds is measured with, and named in settings.

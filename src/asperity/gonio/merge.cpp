@@ -3,6 +3,7 @@
 
 #include <asperity/core/error.h>
 #include <asperity/gonio/batch_plan.h>
+#include <asperity/gonio/layer_in_work.h>
 #include <asperity/gonio/layer_of_sums.h>
 #include <asperity/gonio/measurement_check.h>
 #include <asperity/gonio/measurement_head.h>
@@ -101,6 +102,28 @@ Measurement Merge::finish() {
     whole_.part = whole_.parts = 1;
     whole_.stopped = false;
     return std::move(whole_);
+}
+
+Measurement Merge::unfinished() && {
+    for (const Incidence& light : incidences(whole_.experiment.illumination))
+        if (const auto found = sums_.find(light.number); found != sums_.end()) {
+            whole_.layers.push_back(layer_of(light, found->second));
+            check_account(whole_.layers.back(), whole_.shape());
+        }
+    whole_.part = whole_.parts = 1;
+    whole_.stopped = true;
+    whole_.notes.emplace_back("stopped before it was complete");
+    return std::move(whole_);
+}
+
+bool complete(Measurement& so_far) {
+    const BatchPlan plan(so_far.surface_cells, so_far.experiment.run);
+    LayersInWork layers(so_far.experiment, so_far.shape(), plan);
+    layers.plan({.so_far = so_far});
+    for (std::size_t k = 0; k < layers.size(); ++k)
+        if (!layers[k].to_do().empty()) return false;
+    layers.add_notes(so_far.notes);
+    return true;
 }
 
 }  // namespace asperity

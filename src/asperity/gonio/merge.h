@@ -20,6 +20,8 @@ class Merge {
     void add(Measurement part, const std::string& name);
     /// The whole. Throws Error(InvalidInput) that names what is missing.
     Measurement finish();
+    /// What there is, `stopped`: measure() goes on from it. Without layers where there is nothing.
+    Measurement unfinished() &&;
 
   private:
     struct Source {
@@ -34,5 +36,10 @@ class Merge {
     std::map<int, LayerSums> sums_;  ///< by layer number
     std::vector<Source> sources_;
 };
+
+/// True when a run that goes on from this result finds nothing to do; `notes` then has what it
+/// would say of layers. With run.until rounds of parts (MeasureScope) are added up until this is
+/// true.
+bool complete(Measurement& so_far);
 
 }  // namespace asperity
