@@ -215,7 +215,7 @@ def _read_by_surface_topography(path: str, error: Error, settings: Mapping[str, 
     if error.code != ErrorCode.INVALID_INPUT or not os.path.isfile(path):
         return None
     try:
-        from SurfaceTopography import open_topography  # type: ignore[import-not-found]
+        from SurfaceTopography import open_topography  # type: ignore[import-not-found,unused-ignore]
     except ImportError:
         return None
     try:
