@@ -36,10 +36,17 @@ constexpr const char* kClosing =
     "reflectance is that over all directions. Errors are standard errors of the rays; a small\n"
     "surface differs from its like by more.\n"
     "\n"
+    "--doi adds the distinctness of image of ASTM E430 and D5767, 100 (1 - R_aside / R_mirror) "
+    "with\n"
+    "receptors in the mirror direction and 0.3 degrees from it. Its value hangs on how wide "
+    "source\n"
+    "and receptors are, so your instrument's widths must be told.\n"
+    "\n"
     "Examples\n"
     "  asperity gloss --surface gaussian --alpha 0.05 --ior 1.5\n"
     "  asperity gloss --surface measured.sur --material Al --until 1%\n"
-    "  asperity gloss --surface ggx --alpha 0.1 --ior 1.5 --geometry 60 --all-azimuths --json\n";
+    "  asperity gloss --surface ggx --alpha 0.1 --ior 1.5 --geometry 60 --all-azimuths --json\n"
+    "  asperity gloss --surface gaussian --alpha 0.002 --ior 1.5 --doi 0.14\n";
 
 /// What rays do not know, of a surface in metres.
 struct Interference {
@@ -79,6 +86,12 @@ class GlossVerb {
                "--all-azimuths", all_azimuths_,
                "each ray from an azimuth of its own, as for a surface that is alike all round")
             ->group(kDetector);
+        doi_ = add_text(app, "--doi", "D[,D]",
+                        "distinctness of image: widths of source and receptors in the plane of "
+                        "incidence [degrees]; one for both",
+                        kDetector);
+        doi_angle_ = add_text(app, "--doi-angle", "D", "angle of the DOI [degrees]", kDetector)
+                         ->default_str("30");
         app.add_flag("--json", json_, "print one JSON object and nothing else")->group(kOutput);
         app.add_flag("--quiet", quiet_, "print nothing but errors")->group(kOutput);
         set_help(app, "gloss --surface SPEC|FILE [--material NAME | --ior N] [options]", kClosing);
@@ -107,12 +120,13 @@ class GlossVerb {
     }
 
   private:
+    static double number(const char* name, std::string_view text) {
+        const auto value = parse_double(text);
+        if (!value) throw Error(ErrorCode::Usage, in_quotes(text) + " is not a number", name);
+        return *value;
+    }
+
     GlossSettings read_settings(const Experiment& experiment) const {
-        const auto number = [](const char* name, std::string_view text) {
-            const auto value = parse_double(text);
-            if (!value) throw Error(ErrorCode::Usage, in_quotes(text) + " is not a number", name);
-            return *value;
-        };
         GlossSettings settings;
         settings.run = experiment.run;
         if (geometry_->count() > 0) {
@@ -127,7 +141,25 @@ class GlossVerb {
             settings.azimuth_deg = number("azimuth", text_of(azimuth_));
         }
         settings.all_azimuths = all_azimuths_;
+        settings.doi = read_doi();
         return settings;
+    }
+
+    DoiSettings read_doi() const {
+        DoiSettings doi;
+        if (doi_->count() == 0) {
+            if (doi_angle_->count() > 0)
+                throw Error(ErrorCode::Usage, "it has no effect without --doi", "doi-angle");
+            return doi;
+        }
+        const auto widths = split(text_of(doi_), ',');
+        if (widths.size() > 2)
+            throw Error(ErrorCode::Usage, "it takes one or two widths: source, receptors", "doi");
+        doi.source_deg = number("doi", widths.front());
+        doi.receptor_deg = number("doi", widths.back());
+        if (doi_angle_->count() > 0) doi.angle_deg = number("doi-angle", text_of(doi_angle_));
+        doi_geometry(doi);
+        return doi;
     }
 
     static std::optional<Interference> interference_of(const SurfaceSettings& settings,
@@ -175,10 +207,30 @@ class GlossVerb {
         for (std::size_t c = 0; c < report.haze_index.size(); ++c)
             say(fmt::format("haze index of ASTM D4039 ({}), gloss at 60° less that at 20°: {}\n",
                             report.channel_names[c], with_error(report.haze_index[c])));
+        tell_doi(say, report);
         for (const std::string& note : report.notes) say("note: " + note + "\n");
         if (waves)
             say("TIS: share of the reflected light that interference alone scatters, at " +
                 length_text(waves->wavelength) + "\n" + waves->verdict + "\n");
+    }
+
+    static void tell_doi(const Talk& say, const GlossReport& report) {
+        if (!report.doi) return;
+        const GlossGeometry& geometry = report.doi->geometry;
+        for (std::size_t c = 0; c < report.doi->doi.size(); ++c)
+            say(fmt::format("DOI at {}° ({}), source {}° and receptors {}° wide: {}\n",
+                            geometry.angle_deg, report.channel_names[c], geometry.source.in_plane,
+                            geometry.receptor.in_plane, with_error(report.doi->doi[c])));
+    }
+
+    static Json to_json(const DoiReading& doi) {
+        Json json =
+            doi.doi.empty() ? Json{{"value", nullptr}, {"stderr", nullptr}} : json_of(doi.doi);
+        json["angle_deg"] = doi.geometry.angle_deg;
+        json["source_deg"] = doi.geometry.source.in_plane;
+        json["receptor_deg"] = doi.geometry.receptor.in_plane;
+        json["rays"] = doi.rays;
+        return json;
     }
 
     static Json to_json(const GlossReport& report, const Heightfield& surface,
@@ -192,6 +244,8 @@ class GlossVerb {
         json["notes"] = report.notes;
         json["haze_index"] = nullptr;
         if (!report.haze_index.empty()) json["haze_index"] = json_of(report.haze_index);
+        json["doi"] = nullptr;
+        if (report.doi) json["doi"] = to_json(*report.doi);
         json["geometric_optics"] = nullptr;
         if (waves) json["geometric_optics"] = waves->verdict;
         json["readings"] = Json::array();
@@ -213,7 +267,7 @@ class GlossVerb {
 
     ExperimentOptions experiment_;
     ThreadsOption threads_;
-    CLI::Option *geometry_ = nullptr, *azimuth_ = nullptr;
+    CLI::Option *geometry_ = nullptr, *azimuth_ = nullptr, *doi_ = nullptr, *doi_angle_ = nullptr;
     bool all_azimuths_ = false, json_ = false, quiet_ = false;
 };
 

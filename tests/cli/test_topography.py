@@ -101,6 +101,13 @@ class Gloss(ProgramTest):
         self.assertIn("gloss [GU]", text)
 
     def test_refused(self):
+        doi = self.json_of("gloss", "--surface", "flat", "--size", "4", "--rays", "2000", "--doi", "0.1,0.2")["doi"]
+        self.assertEqual((doi["value"], doi["angle_deg"], doi["source_deg"], doi["receptor_deg"]),
+                         ([100], 30, 0.1, 0.2))
+        self.assertIn("DOI at 30° (all), source 0.14° and receptors 0.14° wide: 100.00000 exact",
+                      self.passes("gloss", "--surface", "flat", "--size", "4", "--rays", "2000", "--doi", "0.14"))
+        self.fails(2, "gloss", "--surface", "flat", "--doi", "0.4", saying="0.6 degrees")
+        self.fails(2, "gloss", "--surface", "flat", "--doi-angle", "20", saying="no effect without --doi")
         self.fails(2, "gloss", "--surface", "flat", "--geometry", "45", saying="geometry")
         self.fails(2, "gloss", "--surface", "flat", "--azimuth", "30", "--all-azimuths", saying="azimuth")
         self.fails(2, "gloss", "--surface", "flat", "--until", "1%,2%", saying="until")

@@ -56,6 +56,10 @@ class Bsdf {
     /// True when turning wi and wo together about z never changes f.
     virtual bool isotropic() const { return false; }
 
+    /// True when mirroring wi and wo in the plane of incidence never changes f either; asked of
+    /// isotropic models only, whose averages over cells then cost half.
+    virtual bool bilateral() const { return false; }
+
     /// Of models made of facets: the density D(wm) of their normals [1/sr], whose integral over the
     /// projected solid angle is 1 (Walter et al. 2007, eq. 4). None: the model has no facets.
     virtual std::optional<double> normal_density(Vec3) const { return std::nullopt; }

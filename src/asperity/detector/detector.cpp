@@ -17,6 +17,12 @@ Detector::Detector(const DetectorSettings& settings)
             kind_ == DetectorKind::LatLong ? 0.5 * kPi * share : std::asin(std::sqrt(share));
     }
     theta_edges_.back() = 0.5 * kPi;
+    for (int row = 0; row < rows_; ++row) {
+        // sin^2 b - sin^2 a = sin(b + a) sin(b - a), without cancellation.
+        const double a = theta_edge(row), b = theta_edge(row + 1);
+        projected_solid_angles_.push_back(0.5 * std::sin(b + a) * std::sin(b - a) * 2 * kPi /
+                                          columns_);
+    }
 }
 
 int Detector::cell_of(Vec3 wo) const {
@@ -35,12 +41,6 @@ int Detector::cell_of(Vec3 wo) const {
 
 Vec3 Detector::centre(int cell) const {
     return from_spherical(theta_centre(cell / columns_), phi_centre(cell % columns_));
-}
-
-double Detector::projected_solid_angle(int row) const {
-    // sin^2 b - sin^2 a = sin(b + a) sin(b - a), without cancellation.
-    const double a = theta_edge(row), b = theta_edge(row + 1);
-    return 0.5 * std::sin(b + a) * std::sin(b - a) * 2 * kPi / columns_;
 }
 
 double Detector::solid_angle(int row) const {

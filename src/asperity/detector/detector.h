@@ -3,6 +3,7 @@
 
 #include <asperity/core/directions.h>
 
+#include <cstddef>
 #include <vector>
 
 namespace asperity {
@@ -48,14 +49,17 @@ class Detector {
 
     /// Integral of cos(theta) over a cell of this row [sr]:
     /// (sin^2 theta_2 - sin^2 theta_1) / 2 * 2 pi / columns. All cells together: pi.
-    double projected_solid_angle(int row) const;
+    double projected_solid_angle(int row) const {
+        return projected_solid_angles_[static_cast<std::size_t>(row)];
+    }
     /// Integral of 1 over a cell of this row [sr].
     double solid_angle(int row) const;
 
   private:
     DetectorKind kind_ = DetectorKind::LatLong;
     int rows_ = 0, columns_ = 0;
-    std::vector<double> theta_edges_;  ///< rows + 1 angles, 0 .. pi/2
+    std::vector<double> theta_edges_;             ///< rows + 1 angles, 0 .. pi/2
+    std::vector<double> projected_solid_angles_;  ///< by row; asked for at every cell
 };
 
 /// Texture coordinates of the thesis' sky-map (eq. 4.5), whose y axis is our z: u and v in [0, 1);

@@ -23,12 +23,28 @@ constexpr Vec3 kAcross = {0, 1, 0};
 
 GlossGeometry standard_gloss_geometry(double angle_deg) {
     constexpr Aperture kSource = {0.75, 2.5};
-    if (angle_deg == 20) return {20, kSource, {1.8, 3.6}};
+    if (angle_deg == 20) return {20, kSource, {1.8, 3.6}, 1.9};
     if (angle_deg == 60) return {60, kSource, {4.4, 11.7}};
     if (angle_deg == 85) return {85, kSource, {4.0, 6.0}};
     throw Error(ErrorCode::Usage,
                 fmt::format("{} degrees is none of the standards' 20, 60 and 85", angle_deg),
                 "geometry");
+}
+
+GlossGeometry doi_geometry(const DoiSettings& settings) {
+    constexpr double kAside = 0.3;
+    const double widths = settings.source_deg + settings.receptor_deg;
+    if (!(settings.source_deg > 0 && settings.receptor_deg > 0 && widths < 2 * kAside))
+        throw Error(ErrorCode::Usage,
+                    fmt::format("the widths of source and receptors must be positive and together "
+                                "below {} degrees, or a perfect mirror would not have 100",
+                                2 * kAside),
+                    "doi");
+    if (!(settings.angle_deg >= 5 && settings.angle_deg <= 80))
+        throw Error(ErrorCode::Usage,
+                    fmt::format("{} is not within 5 to 80 degrees", settings.angle_deg),
+                    "doi-angle");
+    return {settings.angle_deg, {settings.source_deg, 2.5}, {settings.receptor_deg, 5}, kAside};
 }
 
 GlossOptics::GlossOptics(const GlossGeometry& geometry)

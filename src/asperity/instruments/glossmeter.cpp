@@ -22,18 +22,22 @@ namespace asperity {
 namespace {
 
 constexpr std::uint64_t kRaysAtOnce = 4096;  // between two looks at whether the run goes on
-constexpr double kHazeOff = 1.9;             // degrees from 20
+/// The random directions of the DOI are not those of an angle of the gloss.
+constexpr std::uint32_t kDoiStream = 0x10000;
+constexpr double kRounding = 1e-12;
+/// A DOI is told where what the narrow receptor saw is known this well.
+constexpr double kDoiKnown = 0.1;
 /// Tells the random directions of the source from what launch points are drawn by.
 constexpr std::uint32_t kSourceStream = 0x676c6f73;
 
 /// What became of the light of a batch, in rays; by channel.
 struct BatchLight {
-    std::vector<double> received, hazy, escaped, truncated, edge;
+    std::vector<double> received, aside, escaped, truncated, edge;
     std::uint64_t rays = 0;
 
     explicit BatchLight(std::size_t channels)
         : received(channels),
-          hazy(channels),
+          aside(channels),
           escaped(channels),
           truncated(channels),
           edge(channels) {}
@@ -43,15 +47,13 @@ struct BatchLight {
 class Glossmeter {
   public:
     Glossmeter(const Tracer& tracer, const Fresnel& fresnel, const GlossSettings& settings,
-               std::uint32_t stream)
+               const GlossGeometry& geometry, std::uint32_t stream)
         : tracer_(tracer),
           fresnel_(fresnel),
           settings_(settings),
           stream_(stream),
-          geometry_(standard_gloss_geometry(settings.angles_deg[stream])),
+          geometry_(geometry),
           optics_(geometry_) {}
-
-    bool has_haze() const { return geometry_.angle_deg == 20; }
 
     /// Batch `index`; nothing when the run is stopped.
     std::optional<BatchLight> trace(std::uint32_t index, std::uint64_t rays, Run& run) const {
@@ -76,7 +78,7 @@ class Glossmeter {
         const double glass = optics_.glass(kGlossIndex);
         for (std::size_t c = 0; c < batches.front().received.size(); ++c) {
             r.gloss.push_back(mean(batches, &BatchLight::received, c, 100 / glass));
-            if (has_haze()) r.haze.push_back(mean(batches, &BatchLight::hazy, c, 100 / glass));
+            if (has_aside()) r.haze.push_back(mean(batches, &BatchLight::aside, c, 100 / glass));
             r.reflectance.push_back(mean(batches, &BatchLight::escaped, c, 1));
         }
         for (const BatchLight& b : batches) r.rays += b.rays;
@@ -91,7 +93,25 @@ class Glossmeter {
         return r;
     }
 
+    DoiReading doi(const std::vector<BatchLight>& batches) const {
+        DoiReading r;
+        r.geometry = geometry_;
+        for (const BatchLight& b : batches) r.rays += b.rays;
+        for (std::size_t c = 0; c < batches.front().received.size(); ++c) {
+            const WithError mirror = mean(batches, &BatchLight::received, c, 1);
+            if (!(mirror.error < kDoiKnown * mirror.value)) return {geometry_, {}, r.rays};
+            const double aside = mean(batches, &BatchLight::aside, c, 0.5).value / mirror.value;
+            // The error of a ratio, to first order: that of aside - ratio * mirror over mirror
+            std::vector<BatchLight> rests = batches;
+            for (BatchLight& b : rests) b.received[c] = 0.5 * b.aside[c] - aside * b.received[c];
+            const WithError rest = mean(rests, &BatchLight::received, c, 1 / mirror.value);
+            r.doi.push_back({100 * (1 - aside), 100 * rest.error});
+        }
+        return r;
+    }
+
   private:
+    bool has_aside() const { return geometry_.aside_deg > 0; }
     /// The figure and its error, all batches counting alike.
     static WithError mean(const std::vector<BatchLight>& batches,
                           std::vector<double> BatchLight::*account, std::size_t c, double scale) {
@@ -105,6 +125,8 @@ class Glossmeter {
         for (const BatchLight& b : batches)
             squares += (value(b) - result.value) * (value(b) - result.value);
         result.error = std::sqrt(squares / (n * (n - 1)));
+        // Batches of which each has all there is differ by the rounding of their sums alone
+        if (result.error < kRounding * result.value) result.error = 0;
         return result;
     }
 
@@ -126,9 +148,7 @@ class Glossmeter {
                 const Vec3 wo = rotate_z(ray.direction, -turn);
                 add(light.escaped);
                 if (optics_.receives(wo)) add(light.received);
-                if (has_haze() &&
-                    (optics_.receives(wo, kHazeOff) || optics_.receives(wo, -kHazeOff)))
-                    add(light.hazy);
+                if (has_aside() && optics_.receives_aside(wo)) add(light.aside);
                 return;
             }
             if (end == RayEnd::Edge) return add(light.edge);
@@ -156,6 +176,12 @@ bool accurate(const GlossReading& reading, double until) {
                        [&](const WithError& gloss) { return gloss.error <= until * gloss.value; });
 }
 
+bool accurate(const DoiReading& reading, double until) {
+    return !reading.doi.empty() &&
+           std::all_of(reading.doi.begin(), reading.doi.end(),
+                       [&](const WithError& doi) { return doi.error <= 100 * until; });
+}
+
 /// Batches `first` .. `end`, in order; only whole ones up to the first that was stopped.
 void trace_batches(const Glossmeter& meter, const BatchPlan& plan, std::uint64_t end,
                    std::vector<BatchLight>& batches, Run& run) {
@@ -171,6 +197,28 @@ void trace_batches(const Glossmeter& meter, const BatchPlan& plan, std::uint64_t
     }
 }
 
+/// Batches of the plan and then as many more as it takes until `accurate` is content with them.
+/// `ahead` is the run's total of rays. Notes `what` it was that stopped without.
+template <class Accurate>
+std::vector<BatchLight> trace_until(const Glossmeter& meter, const BatchPlan& plan,
+                                    const Accurate& accurate, const std::string& what,
+                                    std::uint64_t& ahead, std::vector<std::string>& notes,
+                                    Run& run) {
+    std::vector<BatchLight> batches;
+    std::uint64_t wanted = plan.batches;
+    while (batches.size() < wanted) {
+        trace_batches(meter, plan, wanted, batches, run);
+        if (batches.size() < 2 || run.stop_requested() || accurate(batches)) break;
+        const std::uint64_t rays = meter.reading(batches).rays, more = plan.more(wanted, rays);
+        if (more == 0)
+            notes.push_back(fmt::format(
+                "{} stopped refining at {} rays: the asked error was not reached", what, rays));
+        wanted += more;
+        run.set_total(ahead += more * plan.largest());
+    }
+    return batches;
+}
+
 const GlossReading* at_angle(const GlossReport& report, double angle_deg) {
     const auto found =
         std::find_if(report.readings.begin(), report.readings.end(),
@@ -184,17 +232,35 @@ void tell_haze(GlossReport& report, const OpticsSettings& optics) {
         report.notes.push_back(fmt::format(
             "haze: the receptors at {} and {} degrees are taken to be as large as that at 20 "
             "degrees, {} x {}, and added: the standards' own sizes are not published openly",
-            20 - kHazeOff, 20 + kHazeOff, steep->geometry.receptor.in_plane,
-            steep->geometry.receptor.across));
+            20 - steep->geometry.aside_deg, 20 + steep->geometry.aside_deg,
+            steep->geometry.receptor.in_plane, steep->geometry.receptor.across));
     if (steep == nullptr || middle == nullptr || optics.fresnel != FresnelKind::Dielectric) return;
     for (std::size_t c = 0; c < steep->gloss.size(); ++c)
         report.haze_index.push_back({middle->gloss[c].value - steep->gloss[c].value,
                                      std::hypot(middle->gloss[c].error, steep->gloss[c].error)});
 }
 
+void tell_doi(GlossReport& report) {
+    if (!report.doi) return;
+    const GlossGeometry& geometry = report.doi->geometry;
+    report.notes.push_back(
+        report.doi->doi.empty()
+            ? fmt::format("no DOI: of {} rays too few met the receptor of {} degrees; ask for more "
+                          "rays",
+                          report.doi->rays, geometry.receptor.in_plane)
+            : fmt::format("DOI: the receptors {} degrees to either side are averaged; slits {} "
+                          "(source) and {} degrees (receptors) long across the plane are taken",
+                          geometry.aside_deg, geometry.source.across, geometry.receptor.across));
+}
+
+bool asks_doi(const GlossSettings& settings) {
+    return settings.doi.source_deg != 0 || settings.doi.receptor_deg != 0;
+}
+
 void check(const GlossSettings& settings) {
     if (settings.angles_deg.empty()) throw Error(ErrorCode::Usage, "no angle is given", "geometry");
     for (const double angle : settings.angles_deg) standard_gloss_geometry(angle);
+    if (asks_doi(settings)) doi_geometry(settings.doi);
     if (settings.run.until_cells > 0)
         throw Error(ErrorCode::Usage, "a glossmeter has no cells: give one error", "until");
     check_all(run_params(), settings.run);
@@ -212,36 +278,35 @@ GlossReport measure_gloss(const Heightfield& surface, const OpticsSettings& opti
     const SurfaceStatistics figures = statistics(surface, run);
     std::vector<double> angles;
     for (const double angle : settings.angles_deg) angles.push_back(radians(angle));
+    if (asks_doi(settings)) angles.push_back(radians(settings.doi.angle_deg));
     check_scale(surface, figures.min_height, figures.max_height, angles);
     const Tracer tracer(surface, run.threads());
     const BatchPlan plan(surface.cell_count(), settings.run);
 
     GlossReport report;
     report.channel_names = fresnel.channel_names();
-    std::uint64_t ahead = plan.rays * settings.angles_deg.size();
+    const double until = settings.run.until;
+    std::uint64_t ahead = plan.rays * (settings.angles_deg.size() + (asks_doi(settings) ? 1 : 0));
     run.begin("tracing", ahead);
-    for (std::uint32_t k = 0; k < settings.angles_deg.size(); ++k) {
-        const Glossmeter meter(tracer, fresnel, settings, k);
-        std::vector<BatchLight> batches;
-        std::uint64_t wanted = plan.batches;
-        while (batches.size() < wanted) {
-            trace_batches(meter, plan, wanted, batches, run);
-            if (batches.size() < 2 || run.stop_requested()) break;
-            const GlossReading so_far = meter.reading(batches);
-            if (settings.run.until <= 0 || accurate(so_far, settings.run.until)) break;
-            const std::uint64_t more = plan.more(wanted, so_far.rays);
-            if (more == 0)
-                report.notes.push_back(fmt::format(
-                    "{} degrees stopped refining at {} rays: the asked error was not reached",
-                    settings.angles_deg[k], so_far.rays));
-            wanted += more;
-            run.set_total(ahead += more * plan.largest());
-        }
+    for (std::uint32_t k = 0; k < settings.angles_deg.size() && !run.stop_requested(); ++k) {
+        const double angle = settings.angles_deg[k];
+        const Glossmeter meter(tracer, fresnel, settings, standard_gloss_geometry(angle), k);
+        const auto batches = trace_until(
+            meter, plan,
+            [&](const auto& b) { return until <= 0 || accurate(meter.reading(b), until); },
+            fmt::format("{} degrees", angle), ahead, report.notes, run);
         if (batches.size() >= 2) report.readings.push_back(meter.reading(batches));
-        if (run.stop_requested()) break;
+    }
+    if (asks_doi(settings) && !run.stop_requested()) {
+        const Glossmeter meter(tracer, fresnel, settings, doi_geometry(settings.doi), kDoiStream);
+        const auto batches = trace_until(
+            meter, plan, [&](const auto& b) { return until <= 0 || accurate(meter.doi(b), until); },
+            "DOI", ahead, report.notes, run);
+        if (batches.size() >= 2) report.doi = meter.doi(batches);
     }
     run.end();
     tell_haze(report, optics);
+    tell_doi(report);
     report.stopped = run.stop_requested();
     return report;
 }

@@ -8,6 +8,7 @@
 #include <asperity/surface/heightfield.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,9 @@ struct GlossSettings {
     std::vector<double> angles_deg = {20, 60, 85};
     double azimuth_deg = 0;     ///< of the light: the instrument turned on the specimen
     bool all_azimuths = false;  ///< each ray has one of its own
-    RunSettings run = {};       ///< rays are per geometry; `until` is the error of the gloss
+    DoiSettings doi = {};
+    RunSettings run =
+        {};  ///< rays are per geometry; `until` is the error of gloss, and of DOI / 100
 };
 
 /// A figure of one channel and its standard error.
@@ -28,14 +31,21 @@ struct WithError {
 struct GlossReading {
     GlossGeometry geometry;
     std::vector<WithError> gloss;  ///< gloss units, by channel
-    /// At 20 degrees, else empty: 100 times what two receptors at 18.1 and 21.9 degrees see
-    /// together, over what the receptor at 20 degrees would see of the glass of 100 gloss units.
-    /// The angles and the ratio are those of ISO 13803 and ASTM E430 method B; the receptors are
-    /// taken to be as large as that of the gloss.
+    /// At 20 degrees, else empty: 100 times what the two receptors aside see together, over what
+    /// the receptor between them would see of the glass of 100 gloss units (ISO 13803 and ASTM E430
+    /// method B).
     std::vector<WithError> haze;
     std::vector<WithError> reflectance;  ///< directional-hemispherical, over all directions
     double truncated = 0;  ///< share of the light that still travelled after all reflections
     double edge = 0;       ///< share that left through the side of a finite patch
+    std::uint64_t rays = 0;
+};
+
+/// Distinctness of image, 100 (1 - R_aside / R_mirror): R_mirror what the receptor in the mirror
+/// direction sees, R_aside the mean of those 0.3 degrees to either side. 100 for a perfect mirror.
+struct DoiReading {
+    GlossGeometry geometry;
+    std::vector<WithError> doi;  ///< by channel; empty where the narrow receptor saw too little
     std::uint64_t rays = 0;
 };
 
@@ -45,6 +55,7 @@ struct GlossReport {
     /// By channel: the haze index of ASTM D4039, the gloss at 60 degrees less that at 20. Empty
     /// unless both were read of a dielectric; meant for 70 gloss units and more at 60 degrees.
     std::vector<WithError> haze_index;
+    std::optional<DoiReading> doi;  ///< where the settings ask for it
     std::vector<std::string> notes;
     bool stopped = false;  ///< the readings hold what was done, none of fewer than two batches
 };

@@ -41,7 +41,7 @@ TEST(Glossmeter, APerfectMirror) {
     for (std::size_t k = 0; k < 3; ++k) {
         const GlossReading& r = report.readings[k];
         EXPECT_NEAR(r.gloss[0].value, expected[k], 2.5e-3 * expected[k]);
-        EXPECT_NEAR(r.gloss[0].error, 0, 1e-9);
+        EXPECT_EQ(r.gloss[0].error, 0);
         EXPECT_NEAR(r.reflectance[0].value, 1, 1e-12);
         EXPECT_EQ(r.rays, 4000u);
     }
@@ -104,6 +104,44 @@ TEST(Glossmeter, HazeIsWhatTwoReceptorsSeeTogether) {
     }
 }
 
+GlossReport read_doi(const Heightfield& surface, const DoiSettings& doi, std::uint64_t rays) {
+    GlossSettings settings;
+    settings.angles_deg = {20};
+    settings.run.rays = rays;
+    settings.doi = doi;
+    asperity::Run run(2);
+    return measure_gloss(surface, {}, settings, run);
+}
+
+// Facets tilted by 0.08 degrees send light 0.16 aside, the source of 0.2 spreads it over 0.06 to
+// 0.26: a fifth of it meets the mirror's receptor (to 0.1), three tenths that on its own side (from
+// 0.2) and none the other. 1 - 0.5 * 0.3 / 0.2 = 0.25.
+TEST(Glossmeter, DistinctnessOfImageOfGrooves) {
+    EXPECT_EQ(read_doi(flat(), {0.14, 0.14}, 4000).doi->doi[0].value, 100);
+    SurfaceSettings settings;
+    settings.kind = "vgroove";
+    settings.size = 64;
+    settings.tilt_deg = 0.08;
+    asperity::Run run(1);
+    const Heightfield grooves = make_surface(settings, run);
+    const DoiReading r = *read_doi(grooves, {0.2, 0.2}, 400000).doi;
+    EXPECT_GT(r.doi[0].error, 0);
+    EXPECT_LT(r.doi[0].error, 1);
+    EXPECT_NEAR(r.doi[0].value, 25, 4 * r.doi[0].error);
+    // Tilted by 0.15 all light goes to the receptors aside
+    settings.tilt_deg = 0.15;
+    const GlossReport aside = read_doi(make_surface(settings, run), {0.14, 0.14}, 4000);
+    EXPECT_TRUE(aside.doi->doi.empty());
+    EXPECT_NE(aside.notes.back().find("no DOI"), std::string::npos);
+    EXPECT_FALSE(read(flat()).doi);
+}
+
+TEST(Glossmeter, RefusesAnInstrumentWhoseMirrorHasNoHundred) {
+    for (const DoiSettings& wrong :
+         {DoiSettings{0.3, 0.3}, {0.1, 0}, {-0.1, 0.2}, {0.1, 0.1, 2}, {0.1, 0.1, 85}})
+        EXPECT_THROW(read_doi(flat(), wrong, 4000), Error) << wrong.source_deg;
+}
+
 // A white that scatters alike in all directions: f = 1 / pi.
 TEST(GlossOptics, ALambertianWhite) {
     const double expected[] = {1.203, 2.485, 0.0327};
@@ -122,6 +160,48 @@ Heightfield gaussian(double alpha, int size) {
     settings.correlation_x = settings.correlation_y = 4;
     asperity::Run run(2);
     return make_surface(settings, run);
+}
+
+/// The share of a band of width `from` around `aside` that lies within one of width `into` around
+/// 0.
+double overlap(double aside, double from, double into) {
+    const double low = std::max(aside - 0.5 * from, -0.5 * into),
+                 high = std::min(aside + 0.5 * from, 0.5 * into);
+    return std::max(0.0, high - low) / from;
+}
+
+// Where slopes are so small that no facet hides another, the light of each goes where its own slope
+// sends it: what the receptors see is a sum over the surface's facets.
+TEST(Glossmeter, DistinctnessOfImageIsThatOfTheFacets) {
+    const Heightfield surface = gaussian(0.004, 256);
+    const DoiSettings doi = {0.1, 0.2, 30};
+    const double theta = radians(doi.angle_deg);
+    const Vec3 wi = {std::sin(theta), 0, std::cos(theta)};
+    double mirror = 0, aside = 0;
+    for (int cell = 0; cell < surface.nx * surface.ny; ++cell) {
+        const int x = cell % surface.nx, y = cell / surface.nx;
+        const auto at = [&](int i, int j) {
+            return double{surface.heights[static_cast<std::size_t>((y + j) % surface.ny) *
+                                              static_cast<std::size_t>(surface.nx) +
+                                          static_cast<std::size_t>((x + i) % surface.nx)]};
+        };
+        // Two facets a cell, either diagonal: their slopes are differences along its sides
+        const Vec3 facets[] = {{at(0, 0) - at(1, 0), at(0, 0) - at(0, 1), 1},
+                               {at(0, 1) - at(1, 1), at(1, 0) - at(1, 1), 1}};
+        for (const Vec3& n : facets) {
+            const Vec3 wo = reflect(wi, normalize(n));
+            const double off = degrees(std::atan2(-wo.x, wo.z)) - doi.angle_deg;
+            const double light = dot(n, wi);
+            mirror += light * overlap(off, doi.source_deg, doi.receptor_deg);
+            for (const double side : {-0.3, 0.3})
+                aside += 0.5 * light * overlap(off - side, doi.source_deg, doi.receptor_deg);
+        }
+    }
+    const double expected = 100 * (1 - aside / mirror);
+    const WithError r = read_doi(surface, doi, 1 << 19).doi->doi[0];
+    EXPECT_LT(r.error, 1.5);
+    EXPECT_NEAR(r.value, expected, 4 * r.error);
+    EXPECT_NEAR(expected, 30, 20);  // neither nothing nor all
 }
 
 // f = D G2 / (4 cos cos) of a mirroring Gaussian surface over the apertures. Smith has the facets

@@ -3,7 +3,26 @@
 #include <asperity/measured/compare.h>
 #include <asperity/measured/patch_integrator.h>
 
+#include <cmath>
+#include <optional>
+
 namespace asperity {
+namespace {
+
+/// Where the plane of incidence runs along edges of columns or through their middles, the columns
+/// are mirrored in it two by two: the sum of the numbers of such a pair, less a whole turn where it
+/// can be, by which one finds the other. None where it cuts them otherwise, or where the BRDF is
+/// not alike on both sides.
+std::optional<int> sum_of_mirrored(const Bsdf& brdf, const Detector& detector, double phi_i) {
+    if (!brdf.isotropic() || !brdf.bilateral()) return std::nullopt;
+    const int columns = detector.columns();
+    const double halves = phi_i / kPi * columns;  // half columns
+    const double whole = std::round(halves);
+    if (std::abs(halves - whole) > 1e-9) return std::nullopt;
+    return (static_cast<int>(std::fmod(whole, columns)) - 1 + columns) % columns;
+}
+
+}  // namespace
 
 CellAverages average_over_cells(const Bsdf& brdf, const Detector& detector, double theta_i,
                                 double phi_i, bool isotropic, int threads) {
@@ -12,10 +31,22 @@ CellAverages average_over_cells(const Bsdf& brdf, const Detector& detector, doub
     const std::size_t cells = static_cast<std::size_t>(detector.cells());
     const detail::CellIntegrator integrator(brdf, detector, theta_i, phi_i, isotropic);
 
+    const auto mirrored = sum_of_mirrored(brdf, detector, isotropic ? 0.0 : phi_i);
+
     CellAverages result;
     result.energy.assign(channels * cells, 0.0);
     parallel_for(static_cast<std::size_t>(detector.rows()), threads, [&](std::size_t row) {
         for (std::size_t column = 0; column < columns; ++column) {
+            const std::size_t other =
+                mirrored ? (static_cast<std::size_t>(*mirrored) + columns - column) % columns
+                         : column;
+            if (other < column) {
+                for (std::size_t channel = 0; channel < channels; ++channel) {
+                    double* const energy = &result.energy[channel * cells + row * columns];
+                    energy[column] = energy[other];
+                }
+                continue;
+            }
             const detail::Channels energy =
                 integrator.integrate(static_cast<int>(row), static_cast<int>(column));
             for (std::size_t channel = 0; channel < channels; ++channel)

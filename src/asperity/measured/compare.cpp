@@ -60,12 +60,14 @@ LayerComparison compare_lobes(const Lobes& a, const Lobes& b, const Detector& de
         const std::size_t cb = b.albedo.size() == 1 ? 0 : channel;
         result.albedo_a += share * a.albedo[ca];
         result.albedo_b += share * b.albedo[cb];
+        double solid_angle = 0;
         for (std::size_t cell = 0; cell < cells; ++cell) {
             const std::size_t ka = ca * cells + cell, kb = cb * cells + cell;
             const double difference = a.energy[ka] - b.energy[kb];
             result.l1 += share * std::abs(difference);
             // f cos(theta) of a cell is its energy per solid angle.
-            const double solid_angle = detector.solid_angle(static_cast<int>(cell / columns));
+            if (cell % columns == 0)
+                solid_angle = detector.solid_angle(static_cast<int>(cell / columns));
             squares += share * difference * difference / solid_angle;
             const double noise = std::hypot(a.noise.empty() ? 0.0 : a.noise[ka],
                                             b.noise.empty() ? 0.0 : b.noise[kb]);

@@ -115,22 +115,22 @@ std::vector<double> LayerTable::nodes_of(const Measurement& measurement, const L
     const int columns = grid_->detector().columns(), cells = grid_->detector().cells();
     const auto row_of = [&](int cell) { return static_cast<std::size_t>(cell / columns); };
     const auto column_of = [&](int cell) { return static_cast<std::size_t>(cell % columns); };
-    std::vector<double> nodes, shape;
+    std::vector<double> nodes, shape, mean, error;
     for (int cell = 0; cell < cells; ++cell) {
         shape.push_back(weights.mean_of_shape(row_of(cell), column_of(cell)));
-        nodes.push_back(measurement.brdf(layer, channel, cell) / shape.back());
+        mean.push_back(measurement.brdf(layer, channel, cell));
+        error.push_back(
+            layer.stderr_energy.empty() ? 0.0 : measurement.brdf_stderr(layer, channel, cell));
+        nodes.push_back(mean.back() / shape.back());
     }
     for (int pass = 0; pass < kPasses; ++pass) {
         std::vector<double> raised = nodes;
-        for (int cell = 0; cell < cells; ++cell) {
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
             // Raise the node by what the mean over the cell misses, beyond twice its error.
-            const auto k = static_cast<std::size_t>(cell);
-            const double missing = measurement.brdf(layer, channel, cell) -
-                                   weights.mean(nodes, row_of(cell), column_of(cell));
-            const double error =
-                layer.stderr_energy.empty() ? 0.0 : measurement.brdf_stderr(layer, channel, cell);
+            const int cell = static_cast<int>(k);
+            const double missing = mean[k] - weights.mean(nodes, row_of(cell), column_of(cell));
             const double certain =
-                std::copysign(std::max(0.0, std::abs(missing) - 2 * error), missing);
+                std::copysign(std::max(0.0, std::abs(missing) - 2 * error[k]), missing);
             raised[k] = std::max(0.0, raised[k] + certain / shape[k]);
         }
         nodes = std::move(raised);

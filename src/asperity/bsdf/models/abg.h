@@ -39,6 +39,7 @@ class AbgBrdf final : public Bsdf {
     std::optional<BsdfSample> sample(Vec3 wi, double u1, double u2) const override;
     double pdf(Vec3 wi, Vec3 wo) const override;
     bool isotropic() const override { return true; }
+    bool bilateral() const override { return true; }
 
   private:
     double below(double radius) const;  ///< integral of the table over the disk of this radius

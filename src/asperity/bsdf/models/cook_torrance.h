@@ -54,6 +54,7 @@ class CookTorranceBrdf final : public Bsdf {
     std::optional<BsdfSample> sample(Vec3 wi, double u1, double u2) const override;
     double pdf(Vec3 wi, Vec3 wo) const override;
     bool isotropic() const override { return true; }
+    bool bilateral() const override { return true; }
     std::optional<double> normal_density(Vec3 wm) const override {
         return facets_.normal_density(wm);
     }

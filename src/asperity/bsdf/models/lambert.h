@@ -20,6 +20,7 @@ class LambertBrdf final : public Bsdf {
     double pdf(Vec3 wi, Vec3 wo) const override;
     void albedo(Vec3 wi, std::span<double> a) const override;
     bool isotropic() const override { return true; }
+    bool bilateral() const override { return true; }
 
   private:
     std::vector<double> albedo_;

@@ -40,6 +40,7 @@ class MicrofacetModel : public Bsdf {
     int channels() const override { return fresnel_.channels(); }
     std::string name() const override { return name_; }
     bool isotropic() const override { return surface_.alpha_x == surface_.alpha_y; }
+    bool bilateral() const override { return true; }
     std::optional<double> normal_density(Vec3 wm) const override {
         return surface_.normal_density(wm);
     }

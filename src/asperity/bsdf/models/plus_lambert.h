@@ -26,6 +26,7 @@ class PlusLambertBrdf final : public Bsdf {
     double pdf(Vec3 wi, Vec3 wo) const override;
     void albedo(Vec3 wi, std::span<double> a) const override;
     bool isotropic() const override { return first_->isotropic(); }
+    bool bilateral() const override { return first_->bilateral(); }
     std::optional<double> normal_density(Vec3 wm) const override {
         return first_->normal_density(wm);
     }
