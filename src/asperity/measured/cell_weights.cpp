@@ -15,31 +15,46 @@ std::array<double, 3> hats(double place) {
     return {std::max(0.0, -place), 1 - std::abs(place), std::max(0.0, place)};
 }
 
-/// Adds what the shape is worth at n x n places of a cell to the weights of nine nodes; returns
-/// its least and its largest value.
-template <typename Shape>
-std::array<double, 2> add_places(const Detector& detector, std::size_t row, std::size_t column,
-                                 int n, const Shape& shape, std::array<float, 9>& weights) {
+/// What a shape is worth at some places of a cell: its least and its largest value, and the mean.
+struct Looked {
+    double least = std::numeric_limits<double>::infinity(), most = 0, mean = 0;
+};
+
+/// Sets the weights of nine nodes from the shape at `along` x `across` places of a cell, in its
+/// polar angle and its azimuth.
+Looked look(const Detector& detector, std::size_t row, std::size_t column, int along, int across,
+            const LobeShape& shape, std::array<float, 9>& weights) {
     const double a = std::sin(detector.theta_edge(static_cast<int>(row)));
     const double b = std::sin(detector.theta_edge(static_cast<int>(row) + 1));
     const double turn = 2 * kPi / detector.columns();
+    const double count = along * across;
     std::array<double, 9> sums{};
-    std::array<double, 2> range{std::numeric_limits<double>::infinity(), 0};
-    for (int i = 0; i < n; ++i) {
-        const double u = (i + 0.5) / n, sin2 = a * a + u * (b * b - a * a);
-        const std::array<double, 3> along = hats(u - 0.5);
-        for (int j = 0; j < n; ++j) {
-            const double v = (j + 0.5) / n, phi = turn * (static_cast<double>(column) + v);
+    Looked looked;
+    for (int i = 0; i < along; ++i) {
+        const double u = (i + 0.5) / along, sin2 = a * a + u * (b * b - a * a);
+        const std::array<double, 3> up = hats(u - 0.5);
+        for (int j = 0; j < across; ++j) {
+            const double v = (j + 0.5) / across, phi = turn * (static_cast<double>(column) + v);
             const double sine = std::sqrt(sin2);
             const double value = shape(Vec3{sine * std::cos(phi), sine * std::sin(phi),
                                             std::sqrt(std::max(0.0, 1 - sin2))});
-            range = {std::min(range[0], value), std::max(range[1], value)};
-            const std::array<double, 3> across = hats(v - 0.5);
-            for (std::size_t k = 0; k < 9; ++k) sums[k] += value * along[k / 3] * across[k % 3];
+            looked.least = std::min(looked.least, value);
+            looked.most = std::max(looked.most, value);
+            looked.mean += value / count;
+            const std::array<double, 3> round = hats(v - 0.5);
+            for (std::size_t k = 0; k < 9; ++k) sums[k] += value * up[k / 3] * round[k % 3];
         }
     }
-    for (std::size_t k = 0; k < 9; ++k) weights[k] = static_cast<float>(sums[k] / (n * n));
-    return range;
+    for (std::size_t k = 0; k < 9; ++k) weights[k] = static_cast<float>(sums[k] / count);
+    return looked;
+}
+
+/// Whether the plane of incidence of light from azimuth phi_i passes through a column, or the one
+/// beside it, on the side of the mirror direction.
+bool near_plane(const Detector& detector, std::size_t column, double phi_i) {
+    const double turn = 2 * kPi / detector.columns();
+    const double off = turn * (static_cast<double>(column) + 0.5) - phi_i - kPi;
+    return std::abs(std::remainder(off, 2 * kPi)) <= 1.5 * turn;
 }
 
 }  // namespace
@@ -54,16 +69,27 @@ CellWeights::CellWeights(const Detector& detector)
     weights_ = {all};
 }
 
-CellWeights::CellWeights(const Detector& detector, const LobeShape& shape) : CellWeights(detector) {
+CellWeights::CellWeights(const Detector& detector, const LobeShape& shape, double phi_i)
+    : CellWeights(detector) {
     if (!shape) return;
-    constexpr double kEven = 1.15;  // a shape that varies less needs no closer look
-    constexpr int kFew = 2, kMany = 6;
+    constexpr double kEven = 1.15;     // a shape that varies less needs no closer look
+    constexpr double kSettled = 0.01;  // a mean that changes less is known
+    constexpr int kFew = 2, kMany = 6, kMost = 6 * 4 * 4 * 4;
     weights_.resize(rows_ * columns_);
     for (std::size_t row = 0; row < rows_; ++row) {
         for (std::size_t column = 0; column < columns_; ++column) {
             Nine& nine = weights_[row * columns_ + column];
-            const auto [least, most] = add_places(detector, row, column, kFew, shape, nine);
-            if (most > kEven * least) add_places(detector, row, column, kMany, shape, nine);
+            Looked last = look(detector, row, column, kFew, kFew, shape, nine);
+            // At grazing incidence the ridge of a lobe passes between any few places
+            const bool ridge = near_plane(detector, column, phi_i);
+            if (last.most <= kEven * last.least && !ridge) continue;
+            last = look(detector, row, column, kMany, kMany, shape, nine);
+            for (int across = 4 * kMany; ridge && across <= kMost; across *= 4) {
+                const Looked closer = look(detector, row, column, kMany, across, shape, nine);
+                const bool settled = std::abs(closer.mean - last.mean) <= kSettled * closer.mean;
+                last = closer;
+                if (settled) break;
+            }
         }
     }
 }

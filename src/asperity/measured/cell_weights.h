@@ -19,7 +19,9 @@ class CellWeights {
   public:
     /// Of the shape 1.
     explicit CellWeights(const Detector& detector);
-    CellWeights(const Detector& detector, const LobeShape& shape);
+    /// Of light from azimuth phi_i [rad], in whose plane of incidence a lobe may be a hundred times
+    /// narrower than a cell: there columns are looked at until their means settle.
+    CellWeights(const Detector& detector, const LobeShape& shape, double phi_i);
 
     double mean(const std::vector<double>& nodes, std::size_t row, std::size_t column) const;
     /// Of the shape alone.

@@ -91,7 +91,7 @@ LayerTable::LayerTable(std::shared_ptr<const CellGrid> grid, const Measurement& 
     const std::size_t rows = static_cast<std::size_t>(detector.rows());
     const std::size_t columns = static_cast<std::size_t>(detector.columns());
     const std::size_t cells = rows * columns;
-    const CellWeights weights(detector, shape);
+    const CellWeights weights(detector, shape, layer.phi_i);
     f_.resize((cells + 1) * channels_);
     std::vector<double> all_channels(cells, 0.0);
     for (std::size_t channel = 0; channel < channels_; ++channel) {

@@ -49,7 +49,9 @@ LobeGuide::LobeGuide(const LayerTable& table, Vec3 wi) {
     // What D says asks for sigma, and sigma for D: as the cosine at first, where nothing is hidden.
     for (int k = 0; k < 3; ++k) {
         if (!find_sigma(table, wi) || tail_ > kBroad * kBroad) {
+            const double width = std::sqrt(tail_);
             *this = LobeGuide();
+            distribution_.map.stretch = width;
             return;
         }
     }

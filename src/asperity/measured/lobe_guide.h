@@ -40,7 +40,8 @@ class LobeGuide {
     double sigma(Vec3 w) const;
 
     /// The directional albedo of a BRDF that follows this guide: an integral over facets, spread by
-    /// the width of D, on the lattice.
+    /// the width of D as far as it is seen, on the lattice. Lobes that move with the light lie
+    /// there at one place, however narrow they are over directions.
     void albedo_over_facets(const Bsdf& brdf, Vec3 wi, FibonacciLattice lattice,
                             std::span<double> a) const;
 

@@ -195,8 +195,7 @@ void TabulatedBrdf::read_layers(const Measurement& measurement, const Run& run) 
 /// together, find by how much it misses, while the corrections are still empty.
 void TabulatedBrdf::normalise(const Run& run) {
     // With a second dimension to cover, coarser steps keep the cost of it within seconds.
-    FibonacciLattice lattice = kCoarseLattice;
-    if (relative_) lattice = guide_.is_known() ? kFineLattice : kMediumLattice;
+    const FibonacciLattice lattice = relative_ ? kFineLattice : kCoarseLattice;
     std::vector<double> theta_nodes = refine(thetas_, 0, 0.5 * kPi, radians(relative_ ? 1.5 : 3));
     if (relative_) {  // towards the horizon, where most changes
         for (double deg = 78; deg < 90; deg += deg < 87 ? 0.5 : 0.25)
@@ -220,7 +219,7 @@ void TabulatedBrdf::normalise(const Run& run) {
         const Vec3 wi = from_spherical(theta, phi_nodes[k % phi_nodes.size()]);
         std::vector<double> wanted(channels), present(channels);
         albedo(wi, wanted);
-        if (guide_.is_known())
+        if (relative_ || guide_.is_known())
             guide_.albedo_over_facets(*this, wi, lattice, present);
         else
             albedo_by_sampling(*this, wi, lattice, present);

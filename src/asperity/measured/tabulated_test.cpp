@@ -136,6 +136,31 @@ TEST(TabulatedTest, GrazingLobesNarrowerThanCells) {
     }
 }
 
+// At 89.35 degrees the lobe of alpha 0.1 is 0.13 degrees wide across the plane of incidence, a
+// twentieth of a cell, and lies along the edge of two: it comes back, with its layer and between.
+TEST(TabulatedTest, RidgesTwentyTimesNarrowerThanCells) {
+    const auto model = parse_brdf_spec("beckmann:alpha=0.1");
+    const auto table = make_tabulated_brdf(
+        test::measurement_of(*model, layers_at({0, 88.9, 89.35, 89.65}, {0}, 128)));
+    for (const double theta_deg : {88.9, 89.35, 89.5, 89.65})
+        EXPECT_LT(relative_l1(*model, *table, theta_deg, 0, 128), 0.02) << theta_deg;
+}
+
+// Broad lobes, too, are followed to the horizon, where they are narrow over directions.
+TEST(TabulatedTest, TheIntegralIsTheAlbedoTowardsTheHorizon) {
+    const auto model = parse_brdf_spec("ggx:alpha=0.3");
+    const auto table =
+        make_tabulated_brdf(test::measurement_of(*model, layers_at({0, 30, 60, 78, 84}, {0}, 64)));
+    const Detector detector(DetectorSettings{DetectorKind::LatLong, 64, 1});
+    for (const double theta_deg : {45.0, 81.0, 87.0, 89.0, 89.5}) {
+        double promised = 0;
+        table->albedo(from_spherical(radians(theta_deg), 1), {&promised, 1});
+        const CellAverages averages =
+            average_over_cells(*table, detector, radians(theta_deg), 1, false, 2);
+        EXPECT_NEAR(averages.albedo[0], promised, 1e-3) << theta_deg;
+    }
+}
+
 TEST(TabulatedTest, LambertStaysLambert) {
     const auto model = parse_brdf_spec("lambert:albedo=0.6");
     const auto table =
