@@ -14,6 +14,7 @@
 #include <asperity/formats/bsdfs/bsdf_format.h>
 #include <asperity/formats/heights/surface_files.h>
 #include <asperity/formats/results/result_file.h>
+#include <asperity/gonio/angles_of_lobe.h>
 #include <asperity/gonio/measure.h>
 #include <asperity/gonio/measurement_head.h>
 #include <asperity/measured/compare.h>
@@ -221,6 +222,7 @@ int Measuring::measure(Task task, const std::string& path) {
     ProgressBar progress(run, quiet_);
 
     const Heightfield surface = io::load_surface(task.experiment.surface, run);
+    task.experiment = with_angles(surface, task.experiment, run);
     MeasureScope scope{std::move(task.so_far), task.part, task.parts};
     // A result to be refined is where to begin without a checkpoint
     if (resume_ && (!scope.so_far || exists(checkpoint_of(path)))) {

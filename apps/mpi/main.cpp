@@ -13,6 +13,7 @@
 #include <asperity/core/version.h>
 #include <asperity/formats/heights/surface_files.h>
 #include <asperity/formats/results/result_file.h>
+#include <asperity/gonio/angles_of_lobe.h>
 #include <asperity/gonio/batch_plan.h>
 #include <asperity/gonio/layer_of_sums.h>
 #include <asperity/gonio/measure.h>
@@ -101,6 +102,7 @@ class SimulateOnRanks {
         Run asked(measuring_.threads());
         const cli::StopOnSignal stop(asked);
         const Heightfield surface = io::load_surface(experiment.surface, asked);
+        experiment = with_angles(surface, experiment, asked);
         const Measurement head = head_of(surface, experiment, asked);
         require_same_surface(head.surface_digest);
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Silly values of every numeric option, names that are nearly right, places that cannot be written:
 one clear line, the right exit code, and no file left."""
+import json
 import os
 import resource
 import signal
@@ -213,6 +214,24 @@ class Outputs(ProgramTest):
         self.assertEqual(done.returncode, 5, done.stderr)
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
         self.assert_files()
+
+    def test_layers_set_by_the_lobe(self):
+        common = ["simulate", "--surface", "gaussian:size=16", "--layers", "auto", "--rays", "500",
+                  "--resolution", "8"]
+        done = run(*common, "-o", "r.asperity", "--json", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        chosen = json.loads(done.stdout)["experiment"]["theta"]
+        self.assertEqual(chosen[0], 0)
+        self.assertGreater(chosen[-1], 89.5)
+        # The result is the one of its angles, and goes on as either
+        self.assertEqual(run(*common, "-o", "r.asperity", "--resume", "--quiet").returncode, 0)
+        other = run("simulate", "--surface", "gaussian:size=16", "--layers", "15", "--rays", "500",
+                    "--resolution", "8", "-o", "r.asperity", "--resume", "--quiet")
+        self.assertEqual(other.returncode, 3, other.stderr)
+        # Models have no surface that would say which
+        done = run("compare", "ggx:alpha=0.3", "beckmann:alpha=0.3", "--layers", "auto")
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
 
 
 if __name__ == "__main__":

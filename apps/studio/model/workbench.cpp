@@ -4,6 +4,7 @@
 #include "words.h"
 
 #include <asperity/core/error.h>
+#include <asperity/gonio/angles_of_lobe.h>
 #include <asperity/gonio/experiment_text.h>
 
 #include <vector>
@@ -68,7 +69,24 @@ bool Workbench::are_layers_current() const {
     Experiment wanted = settings().experiment;
     wanted.run.jitter = jitter_of(wanted.run, head->surface_cells);
     wanted.run.surfaces = surfaces_of(wanted.run, head->surface_cells);
+    // Angles set by the lobe follow from what else is compared
+    if (IlluminationSettings& light = wanted.illumination;
+        light.layers == 0 && light.theta_deg.empty() && head->experiment.illumination.layers == 0)
+        light.theta_deg = head->experiment.illumination.theta_deg;
     return same_experiment(head->experiment, wanted);
+}
+
+IlluminationSettings Workbench::incident_light() const {
+    IlluminationSettings light = settings().experiment.illumination;
+    if (light.layers != 0 || !light.theta_deg.empty()) return light;
+    light.layers = IlluminationSettings{}.layers;
+    if (!surface_.surface()) return light;
+    try {
+        light.theta_deg =
+            angles_of_lobe(surface_.statistics().rms_gradient, settings().experiment.optics);
+    } catch (const Error&) {  // optics that are being typed
+    }
+    return light;
 }
 
 bool Workbench::is_drawing() const {
@@ -110,6 +128,7 @@ void Workbench::look_for_paths() {
     }
     Experiment experiment = settings().experiment;
     experiment.surface = surface_.settings();
+    experiment.illumination = incident_light();
     // A cell is one of the layers that are shown, whatever the settings say by now
     const auto& shown = drawing_.layers().head;
     if (cell_ && shown) experiment.detector = shown->experiment.detector;

@@ -36,6 +36,9 @@ class Workbench : public QObject {
     /// Stop Drawing, also of a drawing that still waits for its surface.
     void stop_drawing();
     bool are_layers_current() const;
+    /// Where the light of the layers comes from: as the settings say, or as the lobe of the surface
+    /// that is there asks.
+    IlluminationSettings incident_light() const;
     /// True while a drawing runs or waits: settings that decide it must not change.
     bool is_drawing() const;
 

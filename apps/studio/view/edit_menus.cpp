@@ -20,8 +20,9 @@ QString tr(const char* text) {
     return QCoreApplication::translate("EditMenus", text);
 }
 
-void step_layer(Document& document, int step) {
-    const int layers = document.settings().experiment.illumination.layers;
+void step_layer(Workbench& workbench, int step) {
+    Document& document = workbench.document();
+    const int layers = static_cast<int>(incidences(workbench.incident_light()).size());
     const int layer = document.settings().surface_view.current_layer + step;
     if (layer < 1 || layer > layers) return;
     document.change(tr("Current Layer"),
@@ -73,10 +74,11 @@ void add_simulation_menu(MainWindow& window) {
     add_drawing_commands(window, menu);
     menu.addSeparator();
 
-    Document& document = window.workbench().document();
-    menu.addAction(tr("Next Layer"), &window, [&document] { step_layer(document, 1); })
+    Workbench& workbench = window.workbench();
+    Document& document = workbench.document();
+    menu.addAction(tr("Next Layer"), &window, [&workbench] { step_layer(workbench, 1); })
         ->setShortcut(QKeySequence("Ctrl+PgUp"));
-    menu.addAction(tr("Previous Layer"), &window, [&document] { step_layer(document, -1); })
+    menu.addAction(tr("Previous Layer"), &window, [&workbench] { step_layer(workbench, -1); })
         ->setShortcut(QKeySequence("Ctrl+PgDown"));
     menu.addSeparator();
     menu.addAction(tr("Start BRDF"), &window,

@@ -20,9 +20,8 @@ namespace {
 /// Shown digits end here; files may hold fewer rays a cell.
 constexpr double kLeastJitter = 0.001;
 
-int layer_count(const IlluminationSettings& light) {
-    if (light.theta_deg.empty()) return light.layers;
-    return static_cast<int>(light.theta_deg.size() * light.phi_deg.size());
+int layer_count(const Workbench& workbench) {
+    return static_cast<int>(incidences(workbench.incident_light()).size());
 }
 
 }  // namespace
@@ -101,9 +100,9 @@ void SimulationFields::add_layer() {
         tr("Current Layer"), layer,
         tr("The sky-map that dome, beam, paths and plots show. Layer k of 15 is lit from an "
            "elevation of 6k degrees: 15 from straight above, 1 grazing"));
-    bindings_.follow([layer](const StudioSettings& settings) {
-        layer->set_range(1, layer_count(settings.experiment.illumination));
-    });
+    const auto follow = [this, layer] { layer->set_range(1, layer_count(workbench_)); };
+    bindings_.follow([follow](const StudioSettings&) { follow(); });
+    connect(&workbench_.surface(), &SurfaceSource::ready, this, follow);
     bindings_.bind(
         layer, tr("Current Layer"),
         [](const StudioSettings& s) { return s.surface_view.current_layer; },

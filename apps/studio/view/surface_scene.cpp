@@ -326,7 +326,7 @@ void SurfaceScene::paint_lines(QPainter& painter) const {
     if (view.dome) paint_dome_lines(lines, *viewport_);
     if (!surface) return;
     paint_paths(lines, workbench_.light().paths(), *surface);
-    if (const auto incidence = incidence_of(settings.experiment.illumination, view.current_layer);
+    if (const auto incidence = incidence_of(workbench_.incident_light(), view.current_layer);
         view.beam && incidence)
         paint_beam(lines, Beam(from_spherical(incidence->theta, incidence->phi), *surface),
                    jitter_of(settings.experiment.run, workbench_.surface().cells()));
@@ -340,7 +340,7 @@ void SurfaceScene::paint_labels(QPainter& painter) const {
     const SurfaceView& view = settings.surface_view;
     const QRectF area = viewport_->rect();
     const double em = painter.fontMetrics().height();
-    QString text = layer_text(settings.experiment.illumination, view.current_layer,
+    QString text = layer_text(workbench_.incident_light(), view.current_layer,
                               workbench_.drawing().layers(), view.sky_map.channel);
     if (workbench_.drawing().layers().head && !workbench_.are_layers_current())
         text += tr(" · drawn with other settings");

@@ -2,6 +2,7 @@
 #include <asperity/detector/illumination.h>
 
 #include <asperity/core/directions.h>
+#include <asperity/core/error.h>
 
 namespace asperity {
 
@@ -13,6 +14,11 @@ std::vector<Incidence> incidences(const IlluminationSettings& s) {
                         s.isotropic ? 0.0 : radians(phi_deg), s.isotropic});
     };
     if (s.theta_deg.empty()) {
+        if (s.layers == 0)
+            throw Error(ErrorCode::Usage,
+                        "only a surface that is measured says what 'auto' is: give a number of "
+                        "layers, or the angles",
+                        "layers");
         // Thesis layers by elevation: the last one, normal incidence, is filled first
         for (int k = s.layers; k >= 1; --k)
             for (const double phi : s.phi_deg) add(k, 90.0 * (s.layers - k) / s.layers, phi);

@@ -8,7 +8,8 @@ namespace asperity {
 /// Where the light comes from.
 struct IlluminationSettings {
     /// Thesis layers: layer k of `layers` stands at elevation 90 k / layers degrees; the last one
-    /// is normal incidence. Used when theta_deg is empty.
+    /// is normal incidence. Used when theta_deg is empty. 0: as the lobe of the surface asks, see
+    /// with_angles() (gonio/angles_of_lobe.h), which measure() calls.
     int layers = 15;
     std::vector<double> theta_deg;  ///< fixed polar angles, 0 <= . < 90
     std::vector<double> phi_deg = {
@@ -35,7 +36,8 @@ struct Incidence {
 /// pass it moves aside by less than a ten-thousandth of a cell.
 inline constexpr double kStraightDown = 1e-12;
 
-/// Incidences of an experiment in the order they are measured: from normal incidence down.
+/// Incidences of an experiment in the order they are measured: from normal incidence down. Throws
+/// Error(Usage, "layers") where they are left to the lobe of a surface and theta_deg is empty.
 std::vector<Incidence> incidences(const IlluminationSettings& settings);
 
 }  // namespace asperity

@@ -24,7 +24,7 @@ void validate(const IlluminationSettings& s) {
     check_all(illumination_params(), s);
     require(!s.phi_deg.empty(), "phi", "needs at least one azimuth");
     const std::size_t angles =
-        s.theta_deg.empty() ? static_cast<std::size_t>(s.layers) : s.theta_deg.size();
+        s.theta_deg.empty() ? static_cast<std::size_t>(std::max(1, s.layers)) : s.theta_deg.size();
     require(s.phi_deg.size() <= kMostLayers / angles, s.phi_deg.size() > 1 ? "phi" : "theta",
             fmt::format("{} polar angles x {} azimuths are more than {} layers", angles,
                         s.phi_deg.size(), kMostLayers));

@@ -98,6 +98,22 @@ Param<RunSettings> engine_row() {
     return row;
 }
 
+/// A row of its own, as the word stands for no number.
+Param<IlluminationSettings> layers_row() {
+    using S = IlluminationSettings;
+    Param<S> row = field(
+        &S::layers, {.name = "layers",
+                     .range = {1, 9000},
+                     .absent = "auto",
+                     .doc = "thesis layers: layer k of N stands at elevation 90 k / N degrees, the "
+                            "last is normal incidence; auto: incident angles as the surface's "
+                            "lobes ask, closer towards the horizon, for BRDFs read between them"});
+    row.get = [](const S& s) {
+        return s.layers == 0 ? ParamValue() : ParamValue(static_cast<std::int64_t>(s.layers));
+    };
+    return row;
+}
+
 template <typename Settings>
 ParamTable<Settings> grouped(const char* group, ParamTable<Settings> table) {
     for (Param<Settings>& row : table) row.info.group = group;
@@ -125,11 +141,7 @@ ParamTable<IlluminationSettings> illumination_params() {
                                 .range = {-360, 360},
                                 .absent = "none",
                                 .doc = "azimuths the light comes from; every theta x every phi"}),
-            field(&S::layers,
-                  {.name = "layers",
-                   .range = {1, 9000},
-                   .doc = "thesis layers: layer k of N stands at elevation 90 k / N degrees, the "
-                          "last is normal incidence"}),
+            layers_row(),
             field(&S::isotropic,
                   {.name = "isotropic",
                    .label = "Light from all azimuths",

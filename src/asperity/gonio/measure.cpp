@@ -5,6 +5,7 @@
 
 #include <asperity/core/error.h>
 #include <asperity/core/parallel.h>
+#include <asperity/gonio/angles_of_lobe.h>
 #include <asperity/gonio/batch_plan.h>
 #include <asperity/gonio/checkpoint.h>
 #include <asperity/gonio/layer_in_work.h>
@@ -213,15 +214,37 @@ class Gonioreflectometer {
     std::atomic<std::uint64_t> rays_ahead_ = 0;
 };
 
+/// The experiment with the angles of its light; nothing when the run was stopped before they were
+/// known.
+std::optional<Experiment> decide(const Heightfield& surface, const Experiment& experiment,
+                                 const Run& run) {
+    try {
+        return with_angles(surface, experiment, run);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::Stopped) throw;
+        return std::nullopt;
+    }
+}
+
+Measurement stopped_before(const Heightfield& surface, const Experiment& experiment,
+                           const Run& run) {
+    Measurement nothing = head_of(surface, experiment, run);
+    nothing.stopped = true;
+    nothing.notes.emplace_back("stopped before it was complete");
+    return nothing;
+}
+
 }  // namespace
 
 Measurement measure(const Heightfield& surface, const Experiment& experiment, Run& run,
                     const MeasureListener& listener, MeasureScope scope) {
     validate(experiment);
-    require_memory_for(surface, experiment);
     validate(surface, surface.name);
     check(scope);
-    return Gonioreflectometer(surface, experiment, run, listener).measure(std::move(scope));
+    const std::optional<Experiment> decided = decide(surface, experiment, run);
+    if (!decided) return stopped_before(surface, experiment, run);
+    require_memory_for(surface, *decided);
+    return Gonioreflectometer(surface, *decided, run, listener).measure(std::move(scope));
 }
 
 }  // namespace asperity

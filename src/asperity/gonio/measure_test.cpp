@@ -340,7 +340,7 @@ TEST(Measure, RefusesSillySettings) {
     refused(
         [](Experiment& e) {
             e.illumination.theta_deg = {};
-            e.illumination.layers = 0;
+            e.illumination.layers = -1;
         },
         "layers");
 }

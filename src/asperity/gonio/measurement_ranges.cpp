@@ -59,7 +59,11 @@ std::string wrong_surface(const Measurement& m) {
 
 std::string out_of_range(const Measurement& m) {
     if (const std::string why = wrong_surface(m); !why.empty()) return why;
-    const std::vector<Incidence> expected = incidences(m.experiment.illumination);
+    if (m.layers.empty()) return {};
+    const IlluminationSettings& illumination = m.experiment.illumination;
+    if (illumination.layers == 0 && illumination.theta_deg.empty())
+        return "layers as the lobe asks, without their angles";
+    const std::vector<Incidence> expected = incidences(illumination);
     auto light = expected.begin();
     for (const Layer& layer : m.layers) {
         std::string why = wrong_errors(layer);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/bsdf/spec.h>
 #include <asperity/core/error.h>
+#include <asperity/gonio/angles_of_lobe.h>
 #include <asperity/measured/analytic_measurement.h>
 
 #include <gtest/gtest.h>
@@ -215,6 +216,27 @@ TEST(CompareTest, BetweenLayersTheLobeIsWhereTheLightSendsIt) {
         EXPECT_LT(between.layers[k].l1, 0.3 * moved.layers[k].l1) << k;
         EXPECT_NEAR(between.layers[k].albedo_difference, 0, 0.01) << k;
     }
+}
+
+/// Where the lobe is narrow and shadowed, between layers set by it and beyond those of the thesis.
+TEST(CompareTest, BetweenLayersSetByTheLobe) {
+    const auto model = parse_brdf_spec("beckmann:alpha=0.2");
+    Experiment between = one_layer(0, 32), lobe = between, thesis = between;
+    between.illumination.theta_deg = {3, 27, 51, 75, 81, 87, 89.5};
+    lobe.illumination.theta_deg = angles_of_lobe(0.2, {});
+    thesis.illumination.theta_deg.clear();
+    const Measurement truth = test::measurement_of(*model, between);
+    const auto distances = [&](const Experiment& experiment) {
+        const Measurement table = test::measurement_of(*model, experiment);
+        return compare_between_layers(truth, table, asperity::Run(2)).layers;
+    };
+    const std::vector<LayerComparison> near = distances(lobe), far = distances(thesis);
+    ASSERT_EQ(near.size(), 7u);
+    for (const LayerComparison& layer : near) {
+        EXPECT_LT(layer.l1, 0.02) << degrees(layer.theta_i);
+        EXPECT_NEAR(layer.albedo_difference, 0, 0.005) << degrees(layer.theta_i);
+    }
+    for (std::size_t k = 5; k < 7; ++k) EXPECT_GT(far[k].l1, 3 * near[k].l1) << k;
 }
 
 }  // namespace
