@@ -76,17 +76,21 @@ std::string text_of_report(const FitReport& report, const FitData& data) {
     std::vector<std::string> heads = {"model"};
     if (!chi2) heads.push_back(fit_metric_name(report.metric));
     if (errors) heads.emplace_back("chi2/dof");
-    heads.insert(heads.end(), {"L1", "noise", "albedo"});
+    heads.emplace_back("L1");
+    if (errors) heads.emplace_back("noise");
+    heads.emplace_back("albedo");
     Table table(std::move(heads));
     for (const Fit& fit : report.fits) {
         std::vector<std::string> row = {fit.text};
         if (!chi2) row.push_back(fmt::format("{:.4g}", fit.misfit));
         if (errors) row.push_back(figure_of(fit.chi2_per_dof, 4));
-        row.insert(row.end(), {percent(fit.mean_l1), percent(fit.mean_noise),
-                               fmt::format("{:+.4f}", fit.max_albedo_difference)});
+        row.push_back(percent(fit.mean_l1));
+        if (errors) row.push_back(percent(fit.mean_noise));
+        row.push_back(fmt::format("{:+.4f}", fit.max_albedo_difference));
         table.add(std::move(row));
     }
     text += table.text() + report.verdict + "\n";
+    if (!report.note.empty()) text += report.note + "\n";
     for (const Fit& fit : report.fits) {
         text += "  " + fit.spec + "\n";
         std::string line = "     ";
@@ -236,6 +240,7 @@ class FitVerb {
                      {"layers", data.layers.size()},
                      {"blocks", data.blocks.size()},
                      {"verdict", report.verdict},
+                     {"note", report.note},
                      {"hint", hint_},
                      {"fits", Json::array()}};
         for (const Fit& fit : report.fits) json["fits"].push_back(json_of(fit));

@@ -80,7 +80,8 @@ std::string meaning(const CLI::App& verb, const std::string& word) {
     if (is_option(word))
         refuse(fmt::format("{}: the verb comes first: asperity VERB {} ... ({})", word, word,
                            fmt::join(names, ", ")));
-    std::string meant = did_you_mean(word, names);
+    std::string meant = word == "sweep" ? "; it comes with the Python package, as asperity-sweep"
+                                        : did_you_mean(word, names);
     if (meant.empty() && find_surface_kind(word.substr(0, word.find(':'))))
         meant = fmt::format("; did you mean asperity surface {}?", word);
     else if (meant.empty() && exists(word))

@@ -3,6 +3,7 @@
 #include "console.h"
 #include "help.h"
 #include "leftovers.h"
+#include "programs_beside.h"
 #include "swapped.h"
 #include "verbs.h"
 
@@ -69,6 +70,9 @@ int run_program(int argc, char** argv) {
         add_render(program),    add_sheet(program),    add_plot(program),    add_export(program),
         add_reference(program), add_selftest(program), add_help(program)};
     for (const Verb& verb : verbs) verb.app->allow_extras();
+    const auto is_named = [&](const Verb& verb) { return verb.app->get_name() == argv[1]; };
+    if (argc > 1 && std::none_of(verbs.begin(), verbs.end(), is_named))
+        become_program_beside(argc, argv);
 
     try {
         program.parse(argc, argv);

@@ -3,8 +3,8 @@
 """judge_mitsuba.py PROGRAM: RGL files of `asperity export` in Mitsuba's own `measured` plug-in.
 
 Evaluates models at 10,000 pairs of directions beside their closed form (the program's own `compare`
-is not asked), tests that sampling follows the density (chi-square), and that a white surface stays
-white. Runs in a virtual environment that has mitsuba and numpy; see run_judge.py."""
+is not asked), tests that sampling follows the density (chi-square), that a white surface stays white, and
+that a sphere looks as our renderer has it. Runs in a virtual environment that has mitsuba and numpy; see run_judge.py."""
 import json
 import subprocess
 import sys
@@ -140,8 +140,40 @@ def check_scene(folder):
     assert middle[0] > 1.2 * middle[2]  # gold
 
 
+def check_sphere(folder):
+    """A sphere in the light of the sun, rendered from the same file by Mitsuba and by Asperity, and from the model it was
+    made of: pixel by pixel within the noise of both pictures and the printed fidelity."""
+    path, told = export(folder, "ggx:alpha=0.3,material=Au")
+    fidelity = told["mean_l1"]
+    camera = mi.ScalarTransform4f().look_at([0, 0, 3.5], [0, 0, 0], [0, 1, 0])
+    theirs = np.array(mi.render(mi.load_dict({
+        "type": "scene", "integrator": {"type": "direct"},
+        "sensor": {"type": "perspective", "fov": 40, "to_world": camera,
+                   "film": {"type": "hdrfilm", "width": 48, "height": 48, "rfilter": {"type": "box"}}},
+        "light": {"type": "directional", "direction": [-1, -1, -1], "irradiance": 3.0},
+        "sphere": {"type": "sphere", "bsdf": {"type": "measured", "filename": path}}}), spp=64))[:, :, :3]
+    lit = theirs.sum(axis=2) > 0
+    # Where the edge of the sphere or of its shadow runs through a pixel, both pictures are noise
+    inside = lit.copy()
+    for shift in ((0, 1), (0, -1), (1, 0), (-1, 0)):
+        inside &= np.roll(lit, shift, axis=(0, 1))
+    for brdf in (path, "ggx:alpha=0.3,material=Au"):
+        picture = f"{folder}/sphere.exr"
+        subprocess.run([program, "render", "--model", "sphere", "--brdf", brdf, "--light", "directional",
+                        "--light-intensity", "3", "--width", "48", "--height", "48", "--spp", "64", "--filter", "box",
+                        "--depth", "1", "--quiet", "-o", picture], check=True)
+        # Beside the colours stands their error
+        ours = np.array(dict(mi.Bitmap(picture).split())["<root>"])[:, :, :3]
+        off = np.abs(ours - theirs)[inside].sum() / theirs[inside].sum()
+        print(f"sphere of {brdf.split('/')[-1]}: {inside.sum()} pixels, mean difference {100 * off:.2f} %, "
+              f"light {ours[inside].sum() / theirs[inside].sum():.4f}, fidelity {100 * fidelity:.2f} %")
+        assert inside.sum() > 400
+        assert off < fidelity + 0.02 and abs(ours[inside].sum() / theirs[inside].sum() - 1) < fidelity + 0.01
+
+
 with tempfile.TemporaryDirectory() as folder:
     check_scene(folder)
+    check_sphere(folder)
     check_eval(folder)
     check_white(folder)
     check_sampling(folder)

@@ -252,6 +252,10 @@ void FitDialog::end(const FitOutcome& outcome) {
     fill_fit_table(*table_, outcome);
     QString text = QString::fromStdString(outcome.report.verdict);
     text = text.left(1).toUpper() + text.mid(1) + ".";
+    if (!outcome.report.note.empty()) {
+        const QString note = QString::fromStdString(outcome.report.note);
+        text += "\n" + note.left(1).toUpper() + note.mid(1) + ".";
+    }
     if (!outcome.hint.isEmpty()) text += "\n" + outcome.hint;
     verdict_->setText(text);
     verdict_->setToolTip(text);

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""python -m asperity sweep: sweeps from a file, in processes here or as an array of Slurm jobs."""
+"""asperity sweep: sweeps from a file, in processes here or as an array of Slurm jobs.
+
+The command asperity hands the verb over to the program asperity-sweep, which is this; python -m asperity sweep as well."""
 
 from __future__ import annotations
 
@@ -59,7 +61,7 @@ def slurm_script(path: str, folder: str, jobs: int, threads: int, name: str) -> 
 
 
 def main(arguments: list[str] | None = None) -> int:
-    parser = argparse.ArgumentParser("python -m asperity", description=__doc__, epilog=_EPILOG,
+    parser = argparse.ArgumentParser("asperity", description=(__doc__ or "").split("\n")[0], epilog=_EPILOG,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     verbs = parser.add_subparsers(dest="verb", required=True)
     verb = verbs.add_parser("sweep", help="measure many experiments", epilog=_EPILOG,
@@ -90,6 +92,11 @@ def main(arguments: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         return int(ErrorCode.STOPPED)
     return 0
+
+
+def sweep_program() -> int:
+    """The program asperity-sweep."""
+    return main(["sweep", *sys.argv[1:]])
 
 
 if __name__ == "__main__":

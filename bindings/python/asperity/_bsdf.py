@@ -12,7 +12,7 @@ import numpy.typing as npt
 from . import _core
 from ._errors import Error
 from ._measurement import Measurement
-from ._run import thread_count
+from ._run import StopArgument, thread_count
 
 Array = npt.NDArray[np.float64]
 
@@ -50,6 +50,11 @@ class Bsdf:
         return self._handle.channels
 
     @property
+    def channel_names(self) -> list[str]:
+        """Names of the channels: "all", or "R", "G", "B", or wavelengths, "550nm"."""
+        return list(self._handle.channel_names)
+
+    @property
     def isotropic(self) -> bool:
         """True when turning wi and wo together changes nothing."""
         return self._handle.isotropic
@@ -81,11 +86,11 @@ class Bsdf:
         return self._handle.albedo(a, thread_count(threads)).reshape(*shape, self.channels)
 
     def export(self, path: "str | os.PathLike[str]", format: str | None = None, *, threads: int | None = None,
-               **options: Any) -> Any:
+               stop: StopArgument = None, **options: Any) -> Any:
         """Writes a file that other programs read, see `Measurement.export()`."""
         from ._export import export
 
-        return export(self._handle, path, format, threads, options)
+        return export(self._handle, path, format, threads, stop, options)
 
     def __reduce__(self) -> Any:
         if self._origin is None:

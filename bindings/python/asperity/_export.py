@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._run import thread_count
+from ._run import StopArgument, Task, thread_count
 from ._settings import value_text
 
 
@@ -56,10 +56,11 @@ class Export:
 
 
 def export(handle: Any, path: "str | os.PathLike[str]", format: str | None, threads: int | None,
-           options: dict[str, Any]) -> Export:
+           stop: StopArgument, options: dict[str, Any]) -> Export:
     text = ",".join(f"{key}={value_text(value, key)}" for key, value in options.items() if value is not None)
     name = os.fspath(path)
-    d = _core.export_bsdf(handle, [], name, format or "", text, thread_count(threads))
+    with Task(False, stop) as task:
+        d = _core.export_bsdf(handle, [], name, format or "", text, thread_count(threads), task.callbacks)
     f = d["fidelity"]
     fidelity = f and Fidelity(
         np.degrees(f["theta"]), np.degrees(f["phi"]), np.asarray(f["l1"]), f["mean_l1"], f["worst_l1"],

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from . import _core, _settings
 from ._bsdf import Bsdf, bsdf, handle_of
 from ._errors import Error
-from ._run import thread_count
+from ._run import ProgressArgument, StopArgument, Task, thread_count
 from ._surface import html_table
 
 Floats = npt.NDArray[np.float64]
@@ -58,11 +58,13 @@ class Fit:
 
 @dataclass(frozen=True)
 class FitReport:
-    """Fits, best first, and a verdict in words."""
+    """Fits, best first, a verdict in words, and a note on what the errors do not hold, empty where they hold all: those
+    of one surface are of its rays alone, and chi2_per_dof above 1 may be its speckle; `surfaces=16` has both."""
 
     metric: str
     fits: tuple[Fit, ...]
     verdict: str
+    note: str
 
     @property
     def best(self) -> Fit:
@@ -79,7 +81,8 @@ class FitReport:
         return self.fits[index]
 
     def _rows(self) -> list[list[str]]:
-        return [[f.model, f.text, f"{f.chi2_per_dof:.4g}", f"{100 * f.mean_l1:.2f} %", f"{100 * f.mean_noise:.2f} %"]
+        return [[f.model, f.text, f"{f.chi2_per_dof:.4g}", f"{100 * f.mean_l1:.2f} %",
+                 f"{100 * f.mean_noise:.2f} %" if f.chi2_per_dof == f.chi2_per_dof else "unknown"]
                 for f in self.fits]
 
     _HEAD = ("model", "parameters", "chi2/dof", "L1", "noise")
@@ -88,7 +91,7 @@ class FitReport:
         table = [list(self._HEAD), *self._rows()]
         widths = [max(len(row[k]) for row in table) for k in range(len(self._HEAD))]
         lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in table]
-        return "\n".join([*lines, self.verdict])
+        return "\n".join([*lines, self.verdict, *([self.note] if self.note else [])])
 
     def _repr_html_(self) -> str:
         return html_table(self._rows(), self._HEAD)
@@ -109,7 +112,8 @@ def _fit_of(d: dict[str, Any]) -> Fit:
                d["noise"])
 
 
-def fit(source: Any, model: str = "all", *, threads: int | None = None, **settings: Any) -> FitReport:
+def fit(source: Any, model: str = "all", *, progress: ProgressArgument = False, stop: StopArgument = None,
+        threads: int | None = None, **settings: Any) -> FitReport:
     """Finds the parameters with which models come nearest to a measurement, a file or a BSDF.
 
     `model` is "all", or models between commas, keys that are given being fixed: "ggx,beckmann:alpha=0.3". Settings
@@ -117,7 +121,8 @@ def fit(source: Any, model: str = "all", *, threads: int | None = None, **settin
     "f0", "ior", "conductor"), free ("alpha_y": more keys to set free), lambert (True: a
     diffuse part is added to each model, its albedo free), light ("all", or "single": what was reflected once, as
     microfacet models have it), max_theta_deg; and, for what is no measurement, the light and the cells it is
-    averaged over: theta_deg, layers, resolution ... Same result for any number of threads.
+    averaged over: theta_deg, layers, resolution ... Same result for any number of threads. `progress` counts models;
+    `stop` and Ctrl-C end it between two of them, with Error (ErrorCode.STOPPED) and KeyboardInterrupt.
     """
     handle = handle_of(source, "source")
     known, cells = fit_keywords(), _settings.keywords(("Light", "Detector"))
@@ -128,5 +133,6 @@ def fit(source: Any, model: str = "all", *, threads: int | None = None, **settin
     if where and isinstance(handle, _core.Measurement):
         raise Error("a measurement brings its own light and detector", place=next(iter(where)))
     texts = _settings.texts_of({"model": model, **{k: v for k, v in settings.items() if k in known}}, known)
-    d = _core.fit(handle, texts, _settings.texts_of(where, cells), thread_count(threads))
-    return FitReport(d["metric"], tuple(_fit_of(f) for f in d["fits"]), d["verdict"])
+    with Task(progress, stop) as task:
+        d = _core.fit(handle, texts, _settings.texts_of(where, cells), thread_count(threads), task.callbacks)
+    return FitReport(d["metric"], tuple(_fit_of(f) for f in d["fits"]), d["verdict"], d["note"])

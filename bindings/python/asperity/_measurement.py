@@ -232,15 +232,16 @@ class Measurement:
         return self._handle.save(os.fspath(path))
 
     def export(self, path: PathArgument, format: str | None = None, *, threads: int | None = None,
-               **options: Any) -> "Export":
+               stop: StopArgument = None, **options: Any) -> "Export":
         """Writes a file that other programs read, reads it back, and tells how well it holds the data.
 
         The format is that of the ending (.bsdf for Mitsuba's `measured`, .exr, .csv, .xml, .binary, ...) or
-        `format`; `asperity.bsdf_formats()` lists formats and their options, which are keywords here.
+        `format`; `asperity.bsdf_formats()` lists formats and their options, which are keywords here. Stopped by `stop`
+        or Ctrl-C while it writes it leaves no file; Error (ErrorCode.STOPPED) or KeyboardInterrupt says so.
         """
         from ._export import export
 
-        return export(self._handle, path, format, threads, options)
+        return export(self._handle, path, format, threads, stop, options)
 
     def to_xarray(self) -> Any:
         """An xarray Dataset: brdf, stderr, albedo, albedo_stderr and others with named axes, coordinates in

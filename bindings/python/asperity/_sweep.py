@@ -107,7 +107,7 @@ def sweep(experiments: Experiments, folder: PathArgument, *, processes: int = 1,
     files and the same table. The bits do not depend on who measures: this process, `processes` of them, each with
     `threads` (all of the machine's, shared evenly, where not given), or the workers of a Dask `client`, which
     must see the same folder. part="3/32" measures every 32nd experiment from the third on, for arrays of jobs (see
-    `python -m asperity sweep --help`), and writes no table: the whole sweep, once all parts are there, does.
+    `asperity sweep --help`), and writes no table: the whole sweep, once all parts are there, does.
 
     `table` is its name in the folder: "sweep.csv", or for instance "sweep.parquet", which needs pyarrow (the extra
     [sweep]); columns of Parquet have their types, and in their metadata unit and meaning.

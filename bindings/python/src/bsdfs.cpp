@@ -10,6 +10,7 @@
 #include <asperity/formats/bsdfs/bsdf_format.h>
 #include <asperity/measured/tabulated.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include <algorithm>
 #include <cmath>
@@ -153,6 +154,7 @@ void add_bsdfs(nb::module_& module) {
                         return BsdfHandle{make_tabulated_brdf(*m.measurement)};
                     })
         .def_prop_ro("channels", [](const BsdfHandle& h) { return h.bsdf->channels(); })
+        .def_prop_ro("channel_names", [](const BsdfHandle& h) { return h.bsdf->channel_names(); })
         .def_prop_ro("name", [](const BsdfHandle& h) { return h.bsdf->name(); })
         .def_prop_ro("isotropic", [](const BsdfHandle& h) { return h.bsdf->isotropic(); })
         .def("eval", eval, nb::arg("wi"), nb::arg("wo"), nb::arg("threads"))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core.h"
+#include "task.h"
 
 #include <asperity/core/error.h>
 #include <asperity/core/run.h>
@@ -37,49 +38,58 @@ nb::dict to_dict(const io::Fidelity& f) {
     return d;
 }
 
-/// Writes the file and reads it back where its format can be read.
-nb::dict write(const io::ExportSource& source, const std::string& path, const std::string& name,
-               const std::string& options) {
-    const io::BsdfFormats formats;
+struct Written {
     std::vector<std::string> remarks;
     std::optional<io::Fidelity> fidelity;
-    std::string written;
-    {
-        const nb::gil_scoped_release free;
+    std::string format;
+};
+
+/// Writes the file and reads it back where its format can be read.
+nb::dict write(io::ExportSource source, const std::string& path, const std::string& name,
+               const std::string& options, const Callbacks& callbacks) {
+    const io::BsdfFormats formats;
+    Run run(source.threads());
+    source.watch(run);
+    const auto outcome = run_task(run, callbacks, [&] {
         const io::BsdfFormat& format = formats.for_writing(path, name);
         const io::FormatOptions chosen(format.options, options);
         if (!format.write) throw Error(ErrorCode::Usage, "can be read only", format.name);
-        remarks = source.remarks();
+        Written written{source.remarks(), {}, format.name};
         for (std::string& remark : format.write(source, chosen, path))
-            remarks.push_back(std::move(remark));
-        if (format.read) fidelity = io::fidelity_of(source, format, path);
-        written = format.name;
+            written.remarks.push_back(std::move(remark));
+        if (format.read) written.fidelity = io::fidelity_of(source, format, path);
+        return written;
+    });
+    if (outcome.interrupted) {
+        PyErr_SetNone(PyExc_KeyboardInterrupt);
+        throw nb::python_error();
     }
     nb::dict d;
-    d["format"] = written;
-    d["remarks"] = remarks;
+    d["format"] = outcome.value.format;
+    d["remarks"] = outcome.value.remarks;
     d["fidelity"] = nb::none();
-    if (fidelity) d["fidelity"] = to_dict(*fidelity);
+    if (outcome.value.fidelity) d["fidelity"] = to_dict(*outcome.value.fidelity);
     return d;
 }
 
 }  // namespace
 
 void add_exports(nb::module_& module) {
-    module.def("export_bsdf",
-               [](const MeasurementHandle& m, const SettingTexts&, const std::string& path,
-                  const std::string& format, const std::string& options, int threads) {
-                   const io::ExportSource source(m.measurement, Run(threads).threads());
-                   return write(source, path, format, options);
-               });
+    module.def(
+        "export_bsdf", [](const MeasurementHandle& m, const SettingTexts&, const std::string& path,
+                          const std::string& format, const std::string& options, int threads,
+                          const Callbacks& callbacks) {
+            return write({m.measurement, Run(threads).threads()}, path, format, options, callbacks);
+        });
     module.def("export_bsdf",
                [](const BsdfHandle& b, const SettingTexts& cells, const std::string& path,
-                  const std::string& format, const std::string& options, int threads) {
+                  const std::string& format, const std::string& options, int threads,
+                  const Callbacks& callbacks) {
                    Experiment experiment;
                    experiment.detector.resolution = 64;  // of the fidelity
                    for (const auto& [key, value] : cells) apply_setting(experiment, key, value);
-                   const io::ExportSource source(b.bsdf, experiment, Run(threads).threads());
-                   return write(source, path, format, options);
+                   return write({b.bsdf, experiment, Run(threads).threads()}, path, format, options,
+                                callbacks);
                });
 }
 

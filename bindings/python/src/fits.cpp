@@ -2,6 +2,7 @@
 #include "arrays.h"
 #include "core.h"
 #include "own_bsdf.h"
+#include "task.h"
 
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
@@ -58,23 +59,33 @@ nb::dict to_dict(const FitReport& report) {
     nb::dict d;
     d["metric"] = fit_metric_name(report.metric);
     d["verdict"] = report.verdict;
+    d["note"] = report.note;
     nb::list fits;
     for (const Fit& fit : report.fits) fits.append(to_dict(fit));
     d["fits"] = fits;
     return d;
 }
 
-nb::dict fit_measurement(const MeasurementHandle& m, const SettingTexts& texts, const SettingTexts&,
-                         int threads) {
-    const FitSettings settings = fit_settings(texts);
-    FitReport report;
-    {
-        const nb::gil_scoped_release free;
-        const FitData data =
-            fit_data(*m.measurement, settings.light, radians(settings.last_theta_deg));
-        report = fit_models(data, settings, Run(threads).threads());
+/// Makes the data and fits. A stop between two models is an Error.
+template <typename MakeData>
+nb::dict run_fit(const FitSettings& settings, int threads, const Callbacks& callbacks,
+                 MakeData&& make_data) {
+    Run run(threads);
+    const auto outcome = run_task(
+        run, callbacks, [&] { return fit_models(make_data(run.threads()), settings, run); });
+    if (outcome.interrupted) {
+        PyErr_SetNone(PyExc_KeyboardInterrupt);
+        throw nb::python_error();
     }
-    return to_dict(report);
+    return to_dict(outcome.value);
+}
+
+nb::dict fit_measurement(const MeasurementHandle& m, const SettingTexts& texts, const SettingTexts&,
+                         int threads, const Callbacks& callbacks) {
+    const FitSettings settings = fit_settings(texts);
+    return run_fit(settings, threads, callbacks, [&](int) {
+        return fit_data(*m.measurement, settings.light, radians(settings.last_theta_deg));
+    });
 }
 
 /// The cells and incidences that a BSDF without error bars is averaged over.
@@ -91,32 +102,23 @@ Experiment cells_of(const Bsdf& bsdf, const FitSettings& settings, const Setting
 }
 
 nb::dict fit_bsdf(const BsdfHandle& b, const SettingTexts& texts, const SettingTexts& cells,
-                  int threads) {
+                  int threads, const Callbacks& callbacks) {
     const FitSettings settings = fit_settings(texts);
     const Experiment experiment = cells_of(*b.bsdf, settings, cells);
-    FitReport report;
-    {
-        const nb::gil_scoped_release free;
-        const int count = Run(threads).threads();
-        const FitData data = fit_data(*b.bsdf, experiment, radians(settings.last_theta_deg), count);
-        report = fit_models(data, settings, count);
-    }
-    return to_dict(report);
+    return run_fit(settings, threads, callbacks, [&](int count) {
+        return fit_data(*b.bsdf, experiment, radians(settings.last_theta_deg), count);
+    });
 }
 
-nb::dict fit_own(OwnBsdf& own, const SettingTexts& texts, const SettingTexts& cells, int threads) {
+nb::dict fit_own(OwnBsdf& own, const SettingTexts& texts, const SettingTexts& cells, int threads,
+                 const Callbacks& callbacks) {
     const FitSettings settings = fit_settings(texts);
     const Experiment experiment = cells_of(own, settings, cells);
     const int count = Run(threads).threads();
     const FitData data = with_answers(own, [&](const Bsdf& bsdf) {
         return fit_data(bsdf, experiment, radians(settings.last_theta_deg), count);
     });
-    FitReport report;
-    {
-        const nb::gil_scoped_release free;
-        report = fit_models(data, settings, count);
-    }
-    return to_dict(report);
+    return run_fit(settings, threads, callbacks, [&](int) { return data; });
 }
 
 }  // namespace

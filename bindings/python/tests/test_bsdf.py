@@ -260,6 +260,12 @@ def test_models_are_fitted(program, tmp_path):
     assert best["alpha"] == pytest.approx(0.3, rel=0.1) and 0 < best.errors["alpha"] < 0.02
     own = asperity.fit(OfLibrary("ggx:alpha=0.35,material=Au"), "ggx:material=Au", **gold)
     assert own.best["alpha"] == pytest.approx(0.35, rel=1e-3)
+    assert asperity.bsdf("ggx:alpha=0.3,material=Au,wavelengths=500/600").channel_names == ["500nm", "600nm"]
+    # Of one surface the errors are those of its rays; of a class they hold both
+    assert "speckle" in asperity.fit(m, "beckmann").note and "speckle" in str(asperity.fit(m, "beckmann"))
+    several = asperity.measure(asperity.gaussian(alpha=0.3, size=64), theta_deg=30, resolution=16, surfaces=16)
+    heard = []
+    assert asperity.fit(several, "beckmann,ggx", progress=heard.append).note == "" and heard[-1].total == 2
     refused(lambda: asperity.fit(m, "gxx"), ErrorCode.USAGE, "gxx")
     refused(lambda: asperity.fit(m, resolution=3), ErrorCode.USAGE, "its own light")
     refused(lambda: asperity.fit(m, lights="single"), ErrorCode.USAGE, "did you mean 'light'")

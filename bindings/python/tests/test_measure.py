@@ -194,6 +194,25 @@ def test_ctrl_c_gives_what_is_complete(large):
         asperity.measure(large, theta_deg=[0], rays=10**9, batches=2)
 
 
+def test_stop_ends_an_export_and_a_fit(gold, tmp_path):
+    def run():
+        asked = []
+
+        def stop():
+            asked.append(time.perf_counter())
+            return True
+
+        refused(lambda: gold.export(tmp_path / "a.xml", "klems", stop=stop), ErrorCode.STOPPED, "stopped")
+        return time.perf_counter() - asked[0]
+
+    assert stopped_after(run) < 0.1 and not list(tmp_path.iterdir())
+    refused(lambda: asperity.fit(gold, "all", stop=lambda: True), ErrorCode.STOPPED, "fitting")
+    with pytest.raises(KeyboardInterrupt):
+        threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT)).start()
+        gold.export(tmp_path / "a.xml", "klems")
+    assert not list(tmp_path.iterdir())
+
+
 def test_others_run_while_it_measures(large):
     turns = 0
     done = threading.Event()

@@ -174,15 +174,14 @@ def test_killed_at_random_it_ends_with_the_same(tmp_path):
     assert not [p for p in left if alive(p)], "a worker outlived its parent"
 
 
-def test_parts_make_the_whole(tmp_path):
+def test_parts_make_the_whole(program, tmp_path):
     """As an array of Slurm jobs does it, from a file, each part a process of its own."""
     plan = tmp_path / "sweep.toml"
     plan.write_text('surface = "gaussian"\nsize = 16\ntheta_deg = [[0, 40]]\nresolution = 8\nrays = 256\nbatches = 2\n'
                     "alpha = [0.1, 0.2, 0.3]\nseed = [1, 2]\n")
 
     def asperity_sweep(folder, *options):
-        return subprocess.run([sys.executable, "-m", "asperity", "sweep", plan, folder, *options], capture_output=True,
-                              text=True)
+        return subprocess.run([program, "sweep", plan, folder, *options], capture_output=True, text=True)
 
     script = asperity_sweep(tmp_path / "parts", "--slurm", "4", "--threads", "2").stdout
     assert "#SBATCH --array=1-4" in script and "6 experiments" in script

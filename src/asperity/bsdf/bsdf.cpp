@@ -22,6 +22,15 @@ void albedo_by_sampling(const Bsdf& brdf, Vec3 wi, FibonacciLattice lattice, std
     for (double& value : a) value /= lattice.points;
 }
 
+std::vector<std::string> Bsdf::channel_names() const {
+    const int count = channels();
+    if (count == 1) return {"all"};
+    if (count == 3) return {"R", "G", "B"};
+    std::vector<std::string> names;
+    for (int c = 1; c <= count; ++c) names.push_back("c" + std::to_string(c));
+    return names;
+}
+
 void Bsdf::albedo(Vec3 wi, std::span<double> a) const {
     albedo_by_sampling(*this, wi, kFineLattice, a);
 }

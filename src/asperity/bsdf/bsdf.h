@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace asperity {
 
@@ -28,6 +29,9 @@ class Bsdf {
     virtual ~Bsdf() = default;
 
     virtual int channels() const = 0;
+    /// One name each, as OpticsSettings has them: "all" for one, "R", "G", "B", or wavelengths,
+    /// "550nm", where the model or its file says them; else "c1", "c2", ...
+    virtual std::vector<std::string> channel_names() const;
     /// One line that names the model and its parameters, as parse_brdf_spec reads it.
     virtual std::string name() const = 0;
 

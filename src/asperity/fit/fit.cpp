@@ -209,6 +209,7 @@ FitReport fit_models(const FitData& data, const FitSettings& settings, Run& run)
     std::stable_sort(report.fits.begin(), report.fits.end(),
                      [](const Fit& a, const Fit& b) { return a.misfit < b.misfit; });
     report.verdict = verdict_of(report.fits);
+    report.note = data.errors_lack;
     return report;
 }
 

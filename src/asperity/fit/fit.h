@@ -81,6 +81,7 @@ struct FitReport {
     FitMetric metric = FitMetric::Chi2;
     std::vector<Fit> fits;  ///< best first
     std::string verdict;    ///< in words, one sentence or two
+    std::string note;       ///< FitData::errors_lack
 };
 
 /// Fits all that `settings` ask for. Throws Error(Usage, "name of the setting"); of "all"

@@ -5,6 +5,7 @@
 #include <asperity/core/parallel.h>
 #include <asperity/fit/fit_data.h>
 #include <asperity/fit/lobe_blocks.h>
+#include <asperity/gonio/experiment.h>
 #include <asperity/measured/compare.h>
 
 #include <fmt/format.h>
@@ -52,10 +53,35 @@ detail::LayerEnergies energies_of(const Measurement& m, const Layer& layer, FitL
     return values;
 }
 
+/// A layer whose batches agree to the last bit, beside others that do not: each batch met each
+/// facet. The least variance that is believed stands for it.
+void believe_least(detail::LayerEnergies& values, const Layer& layer, int channels) {
+    const std::size_t cells = values.energy.size() / static_cast<std::size_t>(channels);
+    for (std::size_t c = 0; c < values.energy.size(); c += cells) {
+        double sum = 0;
+        for (std::size_t k = c; k < c + cells; ++k) sum += values.energy[k];
+        for (std::size_t k = c; k < c + cells; ++k)
+            values.variance[k] =
+                kLeastVariance * sum / static_cast<double>(layer.rays) * values.energy[k];
+    }
+}
+
 bool any(const std::vector<double>& values) {
     for (const double value : values)
         if (value > 0) return true;
     return false;
+}
+
+/// Errors of one surface are those of the rays: how it differs from others of its kind is no part
+/// of them, and where there are many rays most of what a model of the kind does not meet.
+std::string missing_in_errors(const Measurement& m) {
+    const SurfaceSettings& surface = m.experiment.surface;
+    const bool file = surface.kind == kSurfaceFile;
+    if (m.experiment.run.surfaces > 1 || (!file && !only_surface(surface).empty())) return {};
+    return std::string("one surface was measured: the errors are those of the rays, not of how ") +
+           (file ? "other places of the sample" : "surfaces of this kind") +
+           " differ, so chi2/dof above 1 may be its speckle" +
+           (file ? "" : "; simulate --surfaces 16 or more has both in its errors");
 }
 
 void require_layers(const FitData& data) {
@@ -78,12 +104,16 @@ FitData fit_data(const Measurement& m, FitLight light, double last_theta) {
             ErrorCode::InvalidInput,
             "its orders of bounces were not kept apart, so light reflected once is not known",
             data.name);
-    bool errors = true;
+    bool errors = true, some = false;
     std::vector<detail::LayerEnergies> values;
     for (const Layer& layer : m.layers) {
         values.push_back(energies_of(m, layer, light));
-        errors = errors && any(values.back().variance);
+        const bool here = any(values.back().variance);
+        errors = errors && (here || (layer.batches > 1 && !values.back().variance.empty()));
+        some = some || here;
+        if (!here && errors) believe_least(values.back(), layer, data.channels);
     }
+    errors = errors && some;
     for (std::size_t k = 0; k < m.layers.size(); ++k) {
         const Layer& layer = m.layers[k];
         if (layer.theta_i >= last_theta || !any(values[k].energy)) continue;
@@ -92,6 +122,7 @@ FitData fit_data(const Measurement& m, FitLight light, double last_theta) {
             data, {layer.theta_i, layer.phi_i, from_spherical(layer.theta_i, layer.phi_i), 0, 0},
             values[k], rows_below(data.detector, last_theta));
     }
+    if (data.has_errors()) data.errors_lack = missing_in_errors(m);
     require_layers(data);
     return data;
 }

@@ -58,6 +58,9 @@ struct FitData {
     /// what a model expects there it is the variance of the block. Empty: errors are not known.
     std::vector<double> spread;
 
+    /// What the errors do not hold, a sentence; empty where they hold all.
+    std::string errors_lack;
+
     bool has_errors() const { return !spread.empty(); }
 };
 

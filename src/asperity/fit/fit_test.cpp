@@ -10,8 +10,10 @@
 #include <asperity/surface/make_surface.h>
 #include <asperity/surface/surface_text.h>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <random>
@@ -194,6 +196,52 @@ FitReport fits_to_surface(const std::string& surface, FitLight light) {
     FitSettings settings;
     settings.models = "ggx,beckmann";
     return fit_models(fit_data(m, light, radians(85)), settings, 2);
+}
+
+Measurement small_gaussian(double alpha, std::uint64_t surfaces) {
+    Experiment e;
+    e.illumination.theta_deg = {0, 25, 50};
+    e.illumination.isotropic = true;
+    e.detector.resolution = 32;
+    e.run.rays = 400000;
+    e.run.surfaces = surfaces;
+    apply_surface_spec(e.surface, fmt::format("gaussian:alpha={},size=128", alpha));
+    Run run(2);
+    return measure(make_surface(e.surface, run), e, run);
+}
+
+/// Of one small surface the errors are those of the rays, and its speckle shows in chi^2; those of
+/// a class of surfaces hold both.
+TEST(Fit, ErrorsOfAClassHoldTheSpeckleOfItsSurfaces) {
+    FitSettings settings;
+    settings.models = "beckmann";
+    const auto fit_to = [&](std::uint64_t surfaces) {
+        const Measurement m = small_gaussian(0.3, surfaces);
+        return fit_models(fit_data(m, FitLight::Single, radians(85)), settings, 2);
+    };
+    const FitReport one = fit_to(1), many = fit_to(16);
+    EXPECT_GT(one.fits[0].chi2_per_dof, 4);
+    EXPECT_LT(many.fits[0].chi2_per_dof, 2.5);
+    EXPECT_NEAR(many.fits[0].params[0].value, 0.3, 0.003);
+    EXPECT_NE(one.note.find("may be its speckle; simulate --surfaces"), std::string::npos)
+        << one.note;
+    EXPECT_EQ(many.note, "");
+}
+
+/// At normal incidence each batch of a smooth surface meets each facet: the errors of this layer
+/// are 0, and those of the others count.
+TEST(Fit, ALayerWhoseBatchesAgreeLeavesTheErrorsOfOthers) {
+    const Measurement m = small_gaussian(0.1, 1);
+    const Layer& normal = m.layers.front();
+    ASSERT_EQ(normal.theta_i, 0);
+    ASSERT_TRUE(std::all_of(normal.stderr_energy.begin(), normal.stderr_energy.end(),
+                            [](float e) { return e == 0; }));
+    FitSettings settings;
+    settings.models = "beckmann";
+    const FitReport report = fit_models(fit_data(m, FitLight::Single, radians(85)), settings, 2);
+    EXPECT_EQ(report.metric, FitMetric::Chi2);
+    EXPECT_GT(report.fits[0].chi2_per_dof, 1);
+    EXPECT_NEAR(report.fits[0].params[0].value, 0.1, 0.003);
 }
 
 TEST(Fit, SimulatedSurfacesFitTheirOwnModel) {

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -79,7 +80,8 @@ bool sync_descriptor(int descriptor) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(path_) {
+AtomicFile::AtomicFile(std::string path, const Run* until)
+    : path_(std::move(path)), target_(path_), until_(until) {
     if (path_.empty()) throw Error(ErrorCode::InputOutput, "the file name is empty");
     struct ::stat status {};
     const bool exists = ::stat(path_.c_str(), &status) == 0;
@@ -132,7 +134,11 @@ void AtomicFile::open_temporary() {
 
 void AtomicFile::write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
-        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        if (until_ && until_->stop_requested())
+            throw Error(ErrorCode::Stopped, "stopped, nothing is written");
+        const std::size_t piece =
+            until_ ? std::min(bytes.size(), static_cast<std::size_t>(kStartBytes)) : bytes.size();
+        const ssize_t written = ::write(descriptor_, bytes.data(), piece);
         if (written < 0 && errno == EINTR) continue;
         if (written == 0) errno = EIO;
         if (written <= 0) fail("cannot write");

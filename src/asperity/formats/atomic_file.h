@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <asperity/core/run.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,8 +23,9 @@ namespace asperity::io {
 /// that the project writes come through here: what goes wrong with a write is never lost.
 class AtomicFile {
   public:
-    /// Refuses a folder and a file that may not be written. Follows symbolic links.
-    explicit AtomicFile(std::string path);
+    /// Refuses a folder and a file that may not be written. Follows symbolic links. Once `until` is
+    /// asked to stop, a write throws Error(Stopped) within a megabyte.
+    explicit AtomicFile(std::string path, const Run* until = nullptr);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
@@ -49,6 +52,7 @@ class AtomicFile {
     std::string path_;       ///< as the user gave it
     std::string target_;     ///< the same with symbolic links resolved
     std::string temporary_;  ///< what is being written; target_ itself when `direct_`
+    const Run* until_ = nullptr;
     int descriptor_ = -1;
     bool direct_ = false;
     std::int64_t position_ = 0;

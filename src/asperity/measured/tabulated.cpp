@@ -104,6 +104,7 @@ class TabulatedBrdf final : public Bsdf {
     TabulatedBrdf(const Measurement& measurement, const Run& run);
 
     int channels() const override { return channels_; }
+    std::vector<std::string> channel_names() const override { return channel_names_; }
     std::string name() const override { return name_; }
     void eval(Vec3 wi, Vec3 wo, std::span<double> f) const override;
     std::optional<BsdfSample> sample(Vec3 wi, double u1, double u2) const override;
@@ -127,6 +128,7 @@ class TabulatedBrdf final : public Bsdf {
     double pdf_turned(const Corners& corners, Vec3 wi, Vec3 wo) const;
 
     int channels_;
+    std::vector<std::string> channel_names_;
     std::string name_;
     std::vector<double> thetas_, phis_;  ///< of the layers, rising
     std::vector<LayerTable> tables_;     ///< [theta * phis + phi], over the guide
@@ -140,6 +142,7 @@ class TabulatedBrdf final : public Bsdf {
 
 TabulatedBrdf::TabulatedBrdf(const Measurement& measurement, const Run& run)
     : channels_(measurement.channels()),
+      channel_names_(measurement.channel_names),
       name_("tabulated:" + (measurement.surface_name.empty() ? std::string("measurement")
                                                              : measurement.surface_name)) {
     read_layers(measurement, run);

@@ -38,6 +38,7 @@ class MicrofacetModel : public Bsdf {
     const Facets& surface() const { return surface_; }
 
     int channels() const override { return fresnel_.channels(); }
+    std::vector<std::string> channel_names() const override { return fresnel_.channel_names(); }
     std::string name() const override { return name_; }
     bool isotropic() const override { return surface_.alpha_x == surface_.alpha_y; }
     bool bilateral() const override { return true; }

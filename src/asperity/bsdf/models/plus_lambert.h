@@ -20,6 +20,9 @@ class PlusLambertBrdf final : public Bsdf {
     PlusLambertBrdf(std::unique_ptr<Bsdf> first, std::vector<double> albedo);
 
     int channels() const override { return channels_; }
+    std::vector<std::string> channel_names() const override {
+        return channels_ == first_->channels() ? first_->channel_names() : Bsdf::channel_names();
+    }
     std::string name() const override;
     void eval(Vec3 wi, Vec3 wo, std::span<double> f) const override;
     std::optional<BsdfSample> sample(Vec3 wi, double u1, double u2) const override;

@@ -57,6 +57,9 @@ class TableBsdf final : public CosineSampledBsdf {
         : table_(std::move(table)), name_(std::move(name)) {}
 
     int channels() const override { return table_.channels; }
+    std::vector<std::string> channel_names() const override {
+        return table_.channel_names.empty() ? Bsdf::channel_names() : table_.channel_names;
+    }
     std::string name() const override { return name_; }
     bool isotropic() const override { return table_.phi_i.size() == 1; }
 
@@ -288,9 +291,16 @@ std::array<double, 3> rgb_of_xyz(const std::array<double, 3>& v) {
 
 std::vector<std::vector<double>> tristimulus_or_luminance(const ExportSource& source) {
     if (source.channels() != 3) return {source.luminance_weights()};
-    return {{0.4124564, 0.3575761, 0.1804375},
-            {0.2126729, 0.7151522, 0.0721750},
-            {0.0193339, 0.1191920, 0.9503041}};
+    constexpr std::array<std::array<double, 3>, 3> kXyzOfRgb = {
+        {{0.4124564, 0.3575761, 0.1804375},
+         {0.2126729, 0.7151522, 0.0721750},
+         {0.0193339, 0.1191920, 0.9503041}}};
+    const std::array<int, 3> channels = source.rgb_channels();
+    std::vector<std::vector<double>> mixture(3, std::vector<double>(3));
+    for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t c = 0; c < 3; ++c)
+            mixture[row][static_cast<std::size_t>(channels[c])] = kXyzOfRgb[row][c];
+    return mixture;
 }
 
 }  // namespace asperity::io

@@ -25,6 +25,7 @@ struct AngleTable {
         0;                  ///< Normal: what the file calls azimuth 0 lies here beyond the light's
     bool mirrored = false;  ///< azimuths 0 .. pi stand for both sides of the plane of incidence
     int channels = 1;
+    std::vector<std::string> channel_names;  ///< wavelengths, "550nm", where they are known
     std::vector<double> phi_i = {0}, theta_i, polar, azimuth;  ///< [rad], rising
     std::vector<double> f;
 

@@ -8,7 +8,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <filesystem>
 #include <set>
+#include <thread>
 
 namespace asperity::io {
 namespace {
@@ -52,6 +55,90 @@ TEST(BsdfFormats, AStopEndsEveryWriterAndLeavesNoFile) {
             EXPECT_EQ(error.code(), ErrorCode::Stopped) << format.name << error.what();
         }
         EXPECT_EQ(folder.files(), 0) << format.name;
+    }
+}
+
+/// Counts what is asked of it, and asks the run to stop at the last question: what is left to do is
+/// to write numbers down.
+class StopsAtTheEnd final : public Bsdf {
+  public:
+    int channels() const override { return model_->channels(); }
+    std::string name() const override { return "stops at the end"; }
+    bool isotropic() const override { return true; }
+    void eval(Vec3 wi, Vec3 wo, std::span<double> f) const override {
+        if (++asked == last && run) run->request_stop();
+        model_->eval(wi, wo, f);
+    }
+    std::optional<BsdfSample> sample(Vec3 wi, double u1, double u2) const override {
+        return model_->sample(wi, u1, u2);
+    }
+    double pdf(Vec3 wi, Vec3 wo) const override { return model_->pdf(wi, wo); }
+
+    mutable std::atomic<std::uint64_t> asked = 0;
+    std::uint64_t last = 0;
+    asperity::Run* run = nullptr;
+
+  private:
+    std::unique_ptr<Bsdf> model_ = parse_brdf_spec("ggx:alpha=0.3");
+};
+
+TEST(BsdfFormats, AStopIsHeardWhileNumbersAreWritten) {
+    const io::test::TemporaryFolder folder;
+    const BsdfFormats formats;
+    for (const BsdfFormat& format : formats.rows()) {
+        if (!format.write || format.name.starts_with("layers") || format.name == "materialx")
+            continue;
+        const std::string options = format.name == "klems"        ? "basis=quarter"
+                                    : format.name == "tensortree" ? "levels=4"
+                                                                  : "";
+        const auto write = [&](StopsAtTheEnd* model) {
+            const std::shared_ptr<const Bsdf> bsdf(model);
+            asperity::Run run(2);
+            model->run = &run;
+            ExportSource source(bsdf, {}, 2);
+            source.watch(run);
+            format.write(source, FormatOptions(format.options, options), folder / "f.x");
+            return std::uint64_t{model->asked};
+        };
+        const std::uint64_t all = write(new StopsAtTheEnd);
+        EXPECT_EQ(folder.files(), 1) << format.name;
+        std::filesystem::remove(folder / "f.x");
+        auto stopping = std::make_unique<StopsAtTheEnd>();
+        stopping->last = all;
+        try {
+            write(stopping.release());
+            ADD_FAILURE() << format.name;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::Stopped) << format.name << error.what();
+        }
+        EXPECT_EQ(folder.files(), 0) << format.name;
+    }
+}
+
+TEST(BsdfFormats, AStopIsHeardWhileLayersAreWritten) {
+    const io::test::TemporaryFolder folder;
+    const BsdfFormats formats;
+    auto m = std::make_shared<Measurement>(
+        empty_measurement(DetectorKind::LatLong, 256, {"R", "G", "B"}, {0, 20, 40, 60, 80}));
+    for (Layer& layer : m->layers)
+        for (int k = 0; k < 5000; ++k) add_rays(*m, layer, 0, k % 3, k, 7 + k % 11);
+    for (const char* name : {"layers", "layers-csv"}) {
+        asperity::Run run(2);
+        ExportSource source(m, 2);
+        source.watch(run);
+        // Once its file is there, it is being written
+        std::thread watcher([&] {
+            while (folder.files() == 0) std::this_thread::yield();
+            run.request_stop();
+        });
+        try {
+            formats.find(name)->write(source, FormatOptions({}, ""), folder / "f.x");
+            ADD_FAILURE() << name;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::Stopped) << name << error.what();
+        }
+        watcher.join();
+        EXPECT_EQ(folder.files(), 0) << name;
     }
 }
 

@@ -25,6 +25,7 @@ class IsotropicMean final : public Bsdf {
         : bsdf_(std::move(bsdf)), azimuths_(azimuths) {}
 
     int channels() const override { return bsdf_->channels(); }
+    std::vector<std::string> channel_names() const override { return bsdf_->channel_names(); }
     std::string name() const override { return bsdf_->name(); }
     bool isotropic() const override { return true; }
 
@@ -79,6 +80,7 @@ class UntilStopped final : public Bsdf {
         : bsdf_(std::move(bsdf)), run_(run) {}
 
     int channels() const override { return bsdf_->channels(); }
+    std::vector<std::string> channel_names() const override { return bsdf_->channel_names(); }
     std::string name() const override { return bsdf_->name(); }
     bool isotropic() const override { return bsdf_->isotropic(); }
     void eval(Vec3 wi, Vec3 wo, std::span<double> f) const override {
@@ -139,11 +141,7 @@ ExportSource::ExportSource(std::shared_ptr<const Measurement> measurement, int t
 ExportSource::ExportSource(std::shared_ptr<const Bsdf> bsdf, const Experiment& experiment,
                            int threads)
     : experiment_(experiment), threads_(threads), bsdf_(std::move(bsdf)) {
-    const int channels = bsdf_->channels();
-    if (channels == 1) channel_names_ = {"all"};
-    if (channels == 3) channel_names_ = {"R", "G", "B"};
-    if (channel_names_.empty())
-        for (int c = 0; c < channels; ++c) channel_names_.push_back(std::to_string(c));
+    channel_names_ = bsdf_->channel_names();
     experiment_.illumination.isotropic = bsdf_->isotropic();
     for (const Incidence& light : incidences(experiment_.illumination)) {
         thetas_.push_back(light.theta);
@@ -184,7 +182,15 @@ bool ExportSource::isotropic() const {
 
 std::array<int, 3> ExportSource::rgb_channels() const {
     if (channels() == 1) return {0, 0, 0};
-    if (channels() == 3) return {0, 1, 2};
+    if (channels() == 3) {
+        std::array<int, 3> longest_first = {0, 1, 2};
+        const std::vector<double> nm = wavelengths_nm();
+        std::sort(longest_first.begin(), longest_first.end(), [&](int a, int b) {
+            return nm.empty() ? a < b
+                              : nm[static_cast<std::size_t>(a)] > nm[static_cast<std::size_t>(b)];
+        });
+        return longest_first;
+    }
     throw Error(ErrorCode::Usage,
                 fmt::format("takes red, green and blue, the data have {} channels: only rgl with "
                             "colour=spectral, layers, layers-csv and astm take them as they are",
@@ -204,7 +210,13 @@ std::vector<double> ExportSource::wavelengths_nm() const {
 }
 
 std::vector<double> ExportSource::luminance_weights() const {
-    if (channels() == 3) return {0.2126, 0.7152, 0.0722};
+    if (channels() == 3) {
+        const std::array<int, 3> rgb = rgb_channels();
+        std::vector<double> weights(3);
+        for (std::size_t c = 0; c < 3; ++c)
+            weights[static_cast<std::size_t>(rgb[c])] = std::array{0.2126, 0.7152, 0.0722}[c];
+        return weights;
+    }
     return std::vector<double>(static_cast<std::size_t>(channels()), 1.0 / channels());
 }
 

@@ -61,9 +61,9 @@ class ExportSource {
     const Experiment& experiment() const { return experiment_; }
     int threads() const { return threads_; }
 
-    /// Which channels stand for red, green and blue: all the same for one; for three those, in
-    /// their order. Throws Error(Usage, "format") for other numbers, naming the formats that take
-    /// wavelengths.
+    /// Which channels stand for red, green and blue: all the same for one; for three those, the
+    /// longest wavelength first where they have one. Throws Error(Usage, "format") for other
+    /// numbers, naming the formats that take wavelengths.
     std::array<int, 3> rgb_channels() const;
     /// Wavelengths of the channels [nm]; empty when they are not named by them.
     std::vector<double> wavelengths_nm() const;

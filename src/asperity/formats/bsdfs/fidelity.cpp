@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace asperity::io {
@@ -36,6 +37,50 @@ class OneChannel final : public Bsdf {
     const Bsdf& bsdf_;
 };
 
+/// A file whose channels stand in another order, as that of their wavelengths: those of the source.
+class InOrder final : public Bsdf {
+  public:
+    InOrder(std::shared_ptr<const Bsdf> bsdf, std::vector<std::size_t> order)
+        : bsdf_(std::move(bsdf)), order_(std::move(order)) {}
+    int channels() const override { return bsdf_->channels(); }
+    std::string name() const override { return bsdf_->name(); }
+    void eval(Vec3 wi, Vec3 wo, std::span<double> f) const override {
+        std::array<double, kMaxBsdfChannels> values{};
+        bsdf_->eval(wi, wo, std::span(values).first(order_.size()));
+        for (std::size_t c = 0; c < f.size(); ++c) f[c] = values[order_[c]];
+    }
+    std::optional<BsdfSample> sample(Vec3 wi, double u1, double u2) const override {
+        return bsdf_->sample(wi, u1, u2);
+    }
+    double pdf(Vec3 wi, Vec3 wo) const override { return bsdf_->pdf(wi, wo); }
+    bool isotropic() const override { return bsdf_->isotropic(); }
+
+  private:
+    std::shared_ptr<const Bsdf> bsdf_;
+    std::vector<std::size_t> order_;
+};
+
+/// The file with its channels as the source has them: by their names; of three that the file knows
+/// as red, green and blue only, those that stand for them.
+std::shared_ptr<const Bsdf> as_in_source(std::shared_ptr<const Bsdf> file,
+                                         const ExportSource& source) {
+    const std::vector<std::string> theirs = file->channel_names();
+    const std::vector<std::string>& ours = source.channel_names();
+    if (theirs == ours || theirs.size() != ours.size()) return file;
+    std::vector<std::size_t> order;
+    for (const std::string& name : ours) {
+        const auto found = std::find(theirs.begin(), theirs.end(), name);
+        if (found != theirs.end()) order.push_back(std::size_t(found - theirs.begin()));
+    }
+    if (order.size() < ours.size()) {
+        if (ours.size() != 3) return file;
+        const std::array<int, 3> rgb = source.rgb_channels();
+        order.assign(3, 0);
+        for (std::size_t c = 0; c < 3; ++c) order[static_cast<std::size_t>(rgb[c])] = c;
+    }
+    return std::make_shared<InOrder>(std::move(file), std::move(order));
+}
+
 /// Mean L1 as a share of the albedo of A, over the layers below kLastAngle.
 double mean_share(const Comparison& comparison) {
     double sum = 0, count = 0;
@@ -58,7 +103,7 @@ Comparison comparison_of(const ExportSource& source, const Bsdf& file) {
 Fidelity fidelity_of(const ExportSource& source, const BsdfFormat& format,
                      const std::string& path) {
     if (!format.read) throw Error(ErrorCode::Usage, "this format is not read back", format.name);
-    std::shared_ptr<const Bsdf> file = format.read(path);
+    std::shared_ptr<const Bsdf> file = as_in_source(format.read(path), source);
     if (source.watched()) file = until_stopped(std::move(file), *source.watched());
     const bool as_grey = source.channels() != file->channels();
     const Comparison comparison =

@@ -29,10 +29,15 @@ struct Scan {
 
 class InPlaneBsdf final : public CosineSampledBsdf {
   public:
-    InPlaneBsdf(std::vector<Scan> scans, std::string name)
-        : scans_(std::move(scans)), name_(std::move(name)) {}
+    InPlaneBsdf(std::vector<Scan> scans, std::vector<std::string> channel_names, std::string name)
+        : scans_(std::move(scans)),
+          channel_names_(std::move(channel_names)),
+          name_(std::move(name)) {}
 
     int channels() const override { return static_cast<int>(scans_.front().f.front().size()); }
+    std::vector<std::string> channel_names() const override {
+        return channel_names_.empty() ? Bsdf::channel_names() : channel_names_;
+    }
     std::string name() const override { return name_; }
     bool isotropic() const override { return true; }
 
@@ -70,12 +75,14 @@ class InPlaneBsdf final : public CosineSampledBsdf {
     }
 
     std::vector<Scan> scans_;
+    std::vector<std::string> channel_names_;
     std::string name_;
 };
 
 }  // namespace
 
-std::unique_ptr<Bsdf> make_in_plane_bsdf(std::vector<AngleRow> rows, std::string name,
+std::unique_ptr<Bsdf> make_in_plane_bsdf(std::vector<AngleRow> rows,
+                                         std::vector<std::string> channel_names, std::string name,
                                          const std::string& where) {
     std::stable_sort(rows.begin(), rows.end(), [](const AngleRow& a, const AngleRow& b) {
         return std::pair(a.theta_i, a.theta_o) < std::pair(b.theta_i, b.theta_o);
@@ -100,7 +107,8 @@ std::unique_ptr<Bsdf> make_in_plane_bsdf(std::vector<AngleRow> rows, std::string
     if (static_cast<int>(scans.front().f.front().size()) > kMaxBsdfChannels)
         throw Error(ErrorCode::InvalidInput,
                     fmt::format("has more than {} columns of values", kMaxBsdfChannels), where);
-    return std::make_unique<InPlaneBsdf>(std::move(scans), std::move(name));
+    return std::make_unique<InPlaneBsdf>(std::move(scans), std::move(channel_names),
+                                         std::move(name));
 }
 
 }  // namespace asperity::io

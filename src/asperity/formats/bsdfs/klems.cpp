@@ -106,7 +106,7 @@ BsdfFormat::Remarks write(const ExportSource& source, const FormatOptions& optio
     const std::vector<double> matrix = matrix_of(source.bsdf(), basis, source.threads());
     const std::vector<double> luminance = source.luminance_weights();
     const std::vector<double> alike(luminance.size(), 1.0 / static_cast<double>(luminance.size()));
-    AtomicFile file(path);
+    AtomicFile file(path, source.watched());
     file.write(window_opening(source) + basis_text(basis));
     file.write(block_text(basis, matrix, alike, "Solar", "CIE Illuminant D65 1nm.ssp", "None"));
     file.write(block_text(basis, matrix, luminance, "Visible", "CIE Illuminant D65 1nm.ssp",

@@ -23,10 +23,10 @@ std::string head_of(const ExportSource& source, const Measurement& m) {
     return text + "\n";
 }
 
-std::string rows_of(const Measurement& m, const Layer& layer) {
+std::string lines_of(const Measurement& m, const Layer& layer, int row) {
     std::string text;
-    for (int cell = 0; cell < m.detector.cells(); ++cell) {
-        const int row = cell / m.detector.columns(), column = cell % m.detector.columns();
+    for (int column = 0; column < m.detector.columns(); ++column) {
+        const int cell = row * m.detector.columns() + column;
         text += fmt::format(
             "{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}", layer.number, degrees(layer.theta_i),
             degrees(layer.phi_i), degrees(m.detector.theta_centre(row)),
@@ -44,12 +44,10 @@ BsdfFormat::Remarks write(const ExportSource& source, const FormatOptions&,
                           const std::string& path) {
     const Measurement* m = source.measurement();
     if (!m) throw Error(ErrorCode::Usage, "layers-csv needs a measurement", "format");
-    AtomicFile file(path);
+    AtomicFile file(path, source.watched());
     file.write(head_of(source, *m));
-    for (const Layer& layer : m->layers) {
-        source.check_stopped();
-        file.write(rows_of(*m, layer));
-    }
+    for (const Layer& layer : m->layers)
+        for (int row = 0; row < m->detector.rows(); ++row) file.write(lines_of(*m, layer, row));
     file.commit();
     return {};
 }

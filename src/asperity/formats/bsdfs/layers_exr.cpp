@@ -49,6 +49,12 @@ struct ChannelNames {
     }
 };
 
+/// Throws where `until` is asked to stop.
+void check(const Run* until) {
+    if (until && until->stop_requested())
+        throw Error(ErrorCode::Stopped, "stopped, nothing is written");
+}
+
 /// One channel of a part: its name and its values, row by row.
 struct Plane {
     std::string name;
@@ -76,11 +82,12 @@ std::vector<std::string> plane_names(const Measurement& m) {
 }
 
 /// All planes of a layer, in the order of plane_names().
-std::vector<Plane> planes_of(const Measurement& m, const Layer& layer) {
+std::vector<Plane> planes_of(const Measurement& m, const Layer& layer, const Run* until) {
     const std::vector<std::string> names = plane_names(m);
     const int cells = m.detector.cells(), columns = m.detector.columns();
     std::vector<Plane> planes;
     const auto add = [&](auto&& of_cell) {
+        check(until);
         planes.push_back(make_plane(names[planes.size()], cells, of_cell));
     };
     for (int c = 0; c < m.channels(); ++c) {
@@ -168,9 +175,9 @@ Imf::Header header_of(const Measurement& m, const Layer& layer, const std::strin
     return header;
 }
 
-void write_part(Imf::MultiPartOutputFile& file, int part, const Measurement& m,
-                const Layer& layer) {
-    std::vector<Plane> planes = planes_of(m, layer);
+void write_part(Imf::MultiPartOutputFile& file, int part, const Measurement& m, const Layer& layer,
+                const Run* until) {
+    std::vector<Plane> planes = planes_of(m, layer, until);
     const std::size_t columns = static_cast<std::size_t>(m.detector.columns());
     Imf::FrameBuffer frame;
     for (Plane& plane : planes)
@@ -180,25 +187,31 @@ void write_part(Imf::MultiPartOutputFile& file, int part, const Measurement& m,
                        sizeof(float), columns * sizeof(float)));
     Imf::OutputPart output(file, part);
     output.setFrameBuffer(frame);
-    output.writePixels(m.detector.rows());
+    // As many rows as are compressed together
+    constexpr int kRows = 16;
+    for (int row = 0; row < m.detector.rows(); row += kRows) {
+        check(until);
+        output.writePixels(std::min(kRows, m.detector.rows() - row));
+    }
 }
 
-void write_parts(Imf::OStream& stream, const Measurement& m) {
+void write_parts(Imf::OStream& stream, const Measurement& m, const Run* until) {
     const std::vector<std::string> names = part_names(m);
     std::vector<Imf::Header> headers;
     for (std::size_t k = 0; k < m.layers.size(); ++k)
         headers.push_back(header_of(m, m.layers[k], names[k]));
     Imf::MultiPartOutputFile file(stream, headers.data(), static_cast<int>(headers.size()));
     for (std::size_t k = 0; k < m.layers.size(); ++k)
-        write_part(file, static_cast<int>(k), m, m.layers[k]);
+        write_part(file, static_cast<int>(k), m, m.layers[k], until);
 }
 
 }  // namespace
 
-void write_layers_exr(const Measurement& measurement, const std::string& path) {
+void write_layers_exr(const Measurement& measurement, const std::string& path, const Run* until) {
     if (measurement.layers.empty())
         throw Error(ErrorCode::Usage, "there is no layer to write", path);
-    write_exr(path, [&](Imf::OStream& stream) { write_parts(stream, measurement); });
+    write_exr(
+        path, [&](Imf::OStream& stream) { write_parts(stream, measurement, until); }, until);
 }
 
 BsdfFormat layers_exr_format() {
@@ -206,8 +219,7 @@ BsdfFormat layers_exr_format() {
                           const std::string& path) -> BsdfFormat::Remarks {
         if (!source.measurement())
             throw Error(ErrorCode::Usage, "layers needs a measurement", "format");
-        source.check_stopped();
-        write_layers_exr(*source.measurement(), path);
+        write_layers_exr(*source.measurement(), path, source.watched());
         return {};
     };
     return {

@@ -11,6 +11,7 @@ namespace asperity::io {
 /// 1/sr, `stderr.*`, `energy.*` (fractions of the launched energy; a part sums to its albedo) and
 /// `bounceK.*` (f of order K; the last holds all higher orders); row 0 = theta_o 0, column 0 =
 /// phi_o 0. Throws Error(InputOutput, path); Error(Usage, path) when there is no layer.
-void write_layers_exr(const Measurement& measurement, const std::string& path);
+void write_layers_exr(const Measurement& measurement, const std::string& path,
+                      const Run* until = nullptr);
 
 }  // namespace asperity::io

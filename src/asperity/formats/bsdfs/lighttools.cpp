@@ -171,7 +171,7 @@ BsdfFormat::Remarks write(const ExportSource& source, const FormatOptions& optio
     table.azimuth = even_angles(0, 360, std::max(2.0, step));
     const bool colour = source.channels() == 3;
     fill(table, source.isotropic_bsdf(), tristimulus_or_luminance(source), source.threads());
-    AtomicFile file(path);
+    AtomicFile file(path, source.watched());
     for (const std::string& line : source.provenance()) file.write("# " + line + "\n");
     file.write(
         fmt::format("Symmetry Asymmetric\nSpectralContent {}\n", colour ? "XYZ" : "Monochrome"));

@@ -58,7 +58,8 @@ std::string heading_of(std::string_view text, std::string& unit) {
 
 struct Sheet {
     std::vector<Column> columns;
-    std::string unit;  ///< "deg", "rad" or empty
+    std::vector<std::string> wavelengths;  ///< "550nm", of all columns of values, or none
+    std::string unit;                      ///< "deg", "rad" or empty
     std::vector<std::vector<double>> rows;
     int row_line = 0;
 
@@ -108,10 +109,14 @@ class Reader {
             sheet.unit = "rad";
         }
         std::vector<Column> columns;
+        std::vector<std::string> wavelengths;
         std::string unknown;
         for (const std::string_view piece : split(row, ',')) {
-            const auto column = column_of(heading_of(piece, sheet.unit));
+            std::string heading = heading_of(piece, sheet.unit);
+            const auto column = column_of(heading);
             if (!column) unknown = piece;
+            if (heading.starts_with("f_")) heading.erase(0, 2);
+            if (column == Column::Value && heading.ends_with("nm")) wavelengths.push_back(heading);
             columns.push_back(column.value_or(Column::Ignored));
         }
         const bool angles = std::count(columns.begin(), columns.end(), Column::ThetaI) == 1 &&
@@ -121,6 +126,9 @@ class Reader {
         if (!unknown.empty()) fail(line, in_quotes(unknown) + " is no heading that is known");
         if (std::find(columns.begin(), columns.end(), Column::Value) == columns.end())
             fail(line, "has no column of values: f, R,G,B or 550nm");
+        const auto values = std::count(columns.begin(), columns.end(), Column::Value);
+        if (wavelengths.size() == static_cast<std::size_t>(values) && values > 1)
+            sheet.wavelengths = std::move(wavelengths);
         sheet.columns = std::move(columns);
     }
 
@@ -200,9 +208,11 @@ std::unique_ptr<Bsdf> read(const std::string& path) {
     if (!sheet.has(Column::PhiO)) {
         if (sheet.has(Column::PhiI))
             throw Error(ErrorCode::InvalidInput, "has phi_i and no phi_o", path);
-        return make_in_plane_bsdf(std::move(rows), name, path);
+        return make_in_plane_bsdf(std::move(rows), sheet.wavelengths, name, path);
     }
-    return make_table_bsdf(table_of_rows(std::move(rows), path), name, path);
+    AngleTable table = table_of_rows(std::move(rows), path);
+    table.channel_names = sheet.wavelengths;
+    return make_table_bsdf(std::move(table), name, path);
 }
 
 struct Shape {
@@ -227,34 +237,38 @@ Shape shape_of(const ExportSource& source, const FormatOptions& options) {
     return shape;
 }
 
-/// Lines of the table; angles times `unit`.
-std::string lines_of(const AngleTable& table, double unit, const ExportSource& source) {
+/// Lines of one incidence and outgoing polar angle; angles times `unit`.
+std::string lines_of(const AngleTable& table, double unit, std::size_t p, std::size_t t,
+                     std::size_t polar) {
     std::string text;
-    for (std::size_t p = 0; p < table.phi_i.size(); ++p)
-        for (std::size_t t = 0; t < table.theta_i.size(); ++t) {
-            source.check_stopped();
-            for (std::size_t n = 0; n < table.directions(); ++n) {
-                const double phi_o =
-                    std::fmod(table.phi_i[p] + table.azimuth[n % table.azimuth.size()], 2 * kPi);
-                text += fmt::format("{:.8g},{:.8g},{:.8g},{:.8g}", table.theta_i[t] * unit,
-                                    table.phi_i[p] * unit,
-                                    table.polar[n / table.azimuth.size()] * unit, phi_o * unit);
-                for (int c = 0; c < table.channels; ++c)
-                    text += fmt::format(",{:.6g}", table.f[table.block(p, t, c) + n]);
-                text += '\n';
-            }
-        }
+    for (std::size_t a = 0; a < table.azimuth.size(); ++a) {
+        const double phi_o = std::fmod(table.phi_i[p] + table.azimuth[a], 2 * kPi);
+        text += fmt::format("{:.8g},{:.8g},{:.8g},{:.8g}", table.theta_i[t] * unit,
+                            table.phi_i[p] * unit, table.polar[polar] * unit, phi_o * unit);
+        const std::size_t n = polar * table.azimuth.size() + a;
+        for (int c = 0; c < table.channels; ++c)
+            text += fmt::format(",{:.6g}", table.f[table.block(p, t, c) + n]);
+        text += '\n';
+    }
     return text;
+}
+
+void write_lines(AtomicFile& file, const AngleTable& table, double unit) {
+    for (std::size_t p = 0; p < table.phi_i.size(); ++p)
+        for (std::size_t t = 0; t < table.theta_i.size(); ++t)
+            for (std::size_t polar = 0; polar < table.polar.size(); ++polar)
+                file.write(lines_of(table, unit, p, t, polar));
 }
 
 BsdfFormat::Remarks write_csv(const ExportSource& source, const FormatOptions& options,
                               const std::string& path) {
     const AngleTable table = shape_of(source, options).table;
-    AtomicFile file(path);
+    AtomicFile file(path, source.watched());
     for (const std::string& line : source.provenance()) file.write("# " + line + "\n");
     std::string head = "# degrees; f in 1/sr without a cosine\ntheta_i,phi_i,theta_o,phi_o";
     for (const std::string& channel : source.channel_names()) head += ",f_" + channel;
-    file.write(head + "\n" + lines_of(table, 180 / kPi, source));
+    file.write(head + "\n");
+    write_lines(file, table, 180 / kPi);
     file.commit();
     return {};
 }
@@ -262,13 +276,14 @@ BsdfFormat::Remarks write_csv(const ExportSource& source, const FormatOptions& o
 BsdfFormat::Remarks write_astm(const ExportSource& source, const FormatOptions& options,
                                const std::string& path) {
     const AngleTable table = shape_of(source, options).table;
-    AtomicFile file(path);
+    AtomicFile file(path, source.watched());
     file.write("ASTM E1392-like table of BSDF in 1/sr, angles in radians\n");
     for (const std::string& line : source.provenance()) file.write("# " + line + "\n");
     std::string head = "VARS theta_i,phi_i,theta_s,phi_s";
     for (const std::string& channel : source.channel_names())
         head += "," + (source.channels() == 1 ? "f" : channel);
-    file.write(head + "\n" + lines_of(table, 1, source));
+    file.write(head + "\n");
+    write_lines(file, table, 1);
     file.commit();
     return {};
 }

@@ -124,7 +124,7 @@ BsdfFormat::Remarks write(const ExportSource& source, const FormatOptions&,
     }
     inputs += input("specular_weight", 1) + input("specular_roughness", std::min(1.0, roughness)) +
               input("specular_roughness_anisotropy", 1 - ratio);
-    AtomicFile file(path);
+    AtomicFile file(path, source.watched());
     file.write("<?xml version=\"1.0\"?>\n<materialx version=\"1.39\">\n" +
                comment_text(source, alpha_x, alpha_y) +
                "  <open_pbr_surface name=\"surface_shader\" type=\"surfaceshader\">\n" + inputs +

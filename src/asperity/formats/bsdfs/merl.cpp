@@ -91,7 +91,7 @@ BsdfFormat::Remarks write(const ExportSource& source, const FormatOptions&,
         for (std::size_t k = half * kRow; k < (half + 1) * kRow; ++k)
             fill_cell(bsdf, channels, k, values);
     });
-    AtomicFile file(path);
+    AtomicFile file(path, source.watched());
     file.write(std::as_bytes(std::span(kSizes)));
     file.write(std::as_bytes(std::span(values)));
     file.commit();

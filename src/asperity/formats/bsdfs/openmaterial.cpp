@@ -61,18 +61,22 @@ nlohmann::ordered_json metadata_of(const ExportSource& source, const FormatOptio
             {"sources", source.measurement() ? "simulated" : "model"}};
 }
 
-/// All rows of one wavelength [m].
-std::string rows_text(const AngleTable& table, double wavelength, int channel) {
-    std::string text;
+/// All rows of one wavelength [m], of which `first` begins the table.
+void write_rows(AtomicFile& file, const AngleTable& table, double wavelength, int channel,
+                bool first) {
     for (std::size_t t = 0; t < table.theta_i.size(); ++t)
-        for (std::size_t n = 0; n < table.directions(); ++n)
-            text +=
-                fmt::format("{}[{:.6g},{:.7g},{:.7g},{:.7g},{:.6g}]", text.empty() ? "\n" : ",\n",
-                            wavelength, std::min(table.theta_i[t], kMostTheta),
-                            std::min(table.polar[n / table.azimuth.size()], kMostTheta),
-                            std::min(table.azimuth[n % table.azimuth.size()], kMostPhi),
-                            table.f[table.block(0, t, channel) + n]);
-    return text;
+        for (std::size_t p = 0; p < table.polar.size(); ++p) {
+            std::string text;
+            for (std::size_t a = 0; a < table.azimuth.size(); ++a) {
+                text += fmt::format(
+                    "{}[{:.6g},{:.7g},{:.7g},{:.7g},{:.6g}]", first ? "\n" : ",\n", wavelength,
+                    std::min(table.theta_i[t], kMostTheta), std::min(table.polar[p], kMostTheta),
+                    std::min(table.azimuth[a], kMostPhi),
+                    table.f[table.block(0, t, channel) + p * table.azimuth.size() + a]);
+                first = false;
+            }
+            file.write(text);
+        }
 }
 
 BsdfFormat::Remarks write(const ExportSource& source, const FormatOptions& options,
@@ -95,12 +99,11 @@ BsdfFormat::Remarks write(const ExportSource& source, const FormatOptions& optio
 
     nlohmann::ordered_json sorted = nlohmann::ordered_json::array();
     for (const std::size_t k : order) sorted.push_back(wavelengths[k] * 1e-9);
-    AtomicFile file(path);
+    AtomicFile file(path, source.watched());
     file.write("{\"metadata\": " + metadata_of(source, options).dump(2) +
                ",\n\"brdf\": {\"wavelengths\": " + sorted.dump() + ",\n\"lookupTable\": [");
     for (std::size_t k = 0; k < order.size(); ++k)
-        file.write((k ? "," : "") +
-                   rows_text(table, wavelengths[order[k]] * 1e-9, static_cast<int>(k)));
+        write_rows(file, table, wavelengths[order[k]] * 1e-9, static_cast<int>(k), k == 0);
     file.write("\n]}}\n");
     file.commit();
     return remarks;
@@ -112,13 +115,31 @@ double number_in(const nlohmann::ordered_json& row, std::size_t k, const std::st
     return row[k].get<double>();
 }
 
-/// Rows of all wavelengths together; red, that is the longest, first where there are three.
-std::vector<AngleRow> rows_of(const nlohmann::ordered_json& list, const std::string& path) {
-    std::map<double, std::size_t> channels;
+/// Which channel a wavelength [m] is; red, that is the longest, comes first where there are three.
+using Channels = std::map<double, std::size_t>;
+
+Channels channels_of(const nlohmann::ordered_json& list, const std::string& path) {
+    Channels channels;
     for (const auto& row : list) channels.emplace(number_in(row, 0, path), 0);
     std::size_t next = 0;
     for (auto& [wavelength, channel] : channels)
         channel = channels.size() == 3 ? 2 - next++ : next++;
+    return channels;
+}
+
+/// Names of the channels; none for a single one, and where they are written for those of a colour.
+std::vector<std::string> names_of(const Channels& channels) {
+    if (channels.size() == 1) return {};
+    std::vector<std::string> names(channels.size());
+    for (const auto& [wavelength, channel] : channels)
+        names[channel] = fmt::format("{:.6g}nm", 1e9 * wavelength);
+    if (names == std::vector<std::string>{"650nm", "550nm", "450nm"}) return {};
+    return names;
+}
+
+/// Rows of all wavelengths together.
+std::vector<AngleRow> rows_of(const nlohmann::ordered_json& list, const Channels& channels,
+                              const std::string& path) {
     std::map<std::array<double, 3>, std::vector<double>> values;
     for (const auto& row : list) {
         auto& f =
@@ -142,7 +163,10 @@ std::unique_ptr<Bsdf> read(const std::string& path) {
     const nlohmann::ordered_json::json_pointer place("/brdf/lookupTable");
     if (!json.is_object() || !json.contains(place) || !json.at(place).is_array())
         throw Error(ErrorCode::InvalidInput, "has no brdf with a lookupTable", path);
-    return make_table_bsdf(table_of_rows(rows_of(json.at(place), path), path),
+    const Channels channels = channels_of(json.at(place), path);
+    AngleTable table = table_of_rows(rows_of(json.at(place), channels, path), path);
+    table.channel_names = names_of(channels);
+    return make_table_bsdf(std::move(table),
                            "file:" + std::filesystem::path(path).filename().string(), path);
 }
 

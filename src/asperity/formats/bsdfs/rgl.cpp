@@ -172,10 +172,7 @@ class RglBuilder {
         t.vndf = {grid_.normals, grid_.normals, std::vector<float>(grid_.slices() * normals)};
         t.luminance = {grid_.n, grid_.n, std::vector<float>(grid_.slices() * size)};
         t.values = {grid_.n, grid_.n, std::vector<float>(grid_.slices() * channels_.size() * size)};
-        parallel_for(grid_.slices(), threads, [&](std::size_t s) {
-            source_.check_stopped();
-            fill_visible(t, s);
-        });
+        parallel_for(grid_.slices(), threads, [&](std::size_t s) { fill_visible(t, s); });
         // Values are taken at the directions that readers will find with the numbers as written.
         const Density visible(t.vndf);
         parallel_for(grid_.slices(), threads, [&](std::size_t s) { fill_values(t, visible, s); });
@@ -192,6 +189,7 @@ class RglBuilder {
     void fill_visible(Tables& t, std::size_t slice) const {
         const Vec3 wi = light(slice);
         const Images image = image_over_sphere(grid_.normals, grid_.normals, [&](Vec3 m, Point u) {
+            source_.check_stopped();
             return ggx(m, widths_) * std::max(0.0, dot(wi, m)) * 2 * kPi * kPi * u.x *
                    std::sin(theta_of(u));
         });
@@ -310,7 +308,7 @@ BsdfFormat::Remarks write(const ExportSource& source, const FormatOptions& optio
     if (spectral) blocks.push_back(block("wavelengths", {wavelengths.size()}, wavelengths));
     blocks.push_back(
         block(spectral ? "spectra" : "rgb", {p, q, channels.size(), n, n}, t.values.values));
-    write_tensor_file(path, blocks);
+    write_tensor_file(path, blocks, source.watched());
 
     BsdfFormat::Remarks remarks;
     if (isotropic)

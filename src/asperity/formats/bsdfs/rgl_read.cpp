@@ -78,6 +78,9 @@ class RglBsdf final : public Bsdf {
     explicit RglBsdf(const std::string& path) : RglBsdf(path, RglReader(path)) {}
 
     int channels() const override { return static_cast<int>(channels_); }
+    std::vector<std::string> channel_names() const override {
+        return wavelengths_.empty() ? Bsdf::channel_names() : wavelengths_;
+    }
     std::string name() const override { return name_; }
     bool isotropic() const override { return phis_.size() <= 2; }
 
@@ -129,8 +132,12 @@ class RglBsdf final : public Bsdf {
         channels_ = entry.shape[2];
         if (channels_ < 1 || channels_ > kMaxBsdfChannels || (!spectra && channels_ != 3))
             in.file().fail(entry.entry, fmt::format("{} has {} channels", field, channels_));
-        if (spectra && in.angles("wavelengths").size() != channels_)
-            in.file().fail(entry.entry, "spectra and wavelengths differ in number");
+        if (spectra) {
+            for (const float nm : in.angles("wavelengths"))
+                wavelengths_.push_back(fmt::format("{}nm", nm));
+            if (wavelengths_.size() != channels_)
+                in.file().fail(entry.entry, "spectra and wavelengths differ in number");
+        }
         values_ = in.images(field, {phis_.size(), thetas_.size(), channels_});
         const TensorField& jacobian = in.file().require("jacobian", TensorType::U8, 1);
         std::byte flag{};
@@ -162,6 +169,7 @@ class RglBsdf final : public Bsdf {
     Density vndf_, luminance_;
     Images values_;
     std::size_t channels_ = 0;
+    std::vector<std::string> wavelengths_;  ///< names of channels that are some
     bool jacobian_ = true;
 };
 

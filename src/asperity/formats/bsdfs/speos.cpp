@@ -74,7 +74,10 @@ std::unique_ptr<Bsdf> read_brdf(const std::string& path) {
     const int incidences = text.count(1, kMostAngles);
     table.channels = text.count(1, kMaxBsdfChannels);
     table.theta_i = read_degrees(text, incidences);
-    const bool rgb = text.numbers(static_cast<std::size_t>(table.channels)) == kBlueToRed;
+    const std::vector<double> nm = text.numbers(static_cast<std::size_t>(table.channels));
+    const bool rgb = nm == kBlueToRed;
+    for (std::size_t c = 0; c < nm.size() && nm.size() > 1 && !rgb; ++c)
+        table.channel_names.push_back(fmt::format("{}nm", nm[c]));
     std::vector<double> shares;
     std::vector<std::vector<double>> blocks;
     for (int k = 0; k < incidences * table.channels; ++k) {
@@ -190,7 +193,7 @@ BsdfFormat::Remarks write_brdf(const ExportSource& source, const FormatOptions& 
                                           std::vector<double>(wavelengths.size(), 0.0));
     for (std::size_t c = 0; c < each.size(); ++c) each[c][guessed ? each.size() - 1 - c : c] = 1;
     fill(table, source.isotropic_bsdf(), each, source.threads());
-    AtomicFile file(path);
+    AtomicFile file(path, source.watched());
     file.write(head_text(kBrdfHead, source) +
                fmt::format("1\t0\n1\n{}\t{}\n", table.theta_i.size(), table.channels));
     file.write(list(table.theta_i, true) + list(wavelengths, false));
@@ -215,7 +218,7 @@ BsdfFormat::Remarks write_anisotropic(const ExportSource& source, const FormatOp
     fill(table, source.isotropic() ? source.isotropic_bsdf() : source.bsdf(),
          {source.luminance_weights()}, source.threads());
     const double share = 100 * integral_of(table, 0, 0, 0);
-    AtomicFile file(path);
+    AtomicFile file(path, source.watched());
     file.write(head_text(kAnisotropicHead, source) + "0\t1\t0\n1\t0\n1\n");
     file.write(fmt::format("{}\n", table.phi_i.size()) + list(table.phi_i, true));
     file.write(fmt::format("{}\n", table.theta_i.size()) + list(table.theta_i, true));

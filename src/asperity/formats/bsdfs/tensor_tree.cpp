@@ -64,13 +64,16 @@ TreeDirections tree_directions(int rank, const std::array<double, 4>& c) {
     return {{-s, 0, std::sqrt(1 - s * s)}, hemisphere_of_square({c[1], c[2]})};
 }
 
-TensorTree::TensorTree(int rank, int levels, const std::vector<double>& grid, double tolerance)
+TensorTree::TensorTree(int rank, int levels, const std::vector<double>& grid, double tolerance,
+                       std::function<void()> between)
     : rank_(rank) {
-    root_ = build(levels, grid, levels, {}, tolerance);
+    root_ = build(levels, grid, levels, {}, tolerance, between);
 }
 
 std::size_t TensorTree::build(int levels, const std::vector<double>& grid, int grid_levels,
-                              std::array<std::size_t, 4> corner, double tolerance) {
+                              std::array<std::size_t, 4> corner, double tolerance,
+                              const std::function<void()>& between) {
+    if (between) between();
     Node node;
     const std::size_t side = power_of_two(levels), count = power_of_two(levels * rank_);
     for (std::size_t k = 0; k < count; ++k) {
@@ -95,7 +98,7 @@ std::size_t TensorTree::build(int levels, const std::vector<double>& grid, int g
             std::array<std::size_t, 4> at = corner;
             for (std::size_t d = 0; d < static_cast<std::size_t>(rank_); ++d)
                 if (child >> d & 1) at[d] += side / 2;
-            node.branch.push_back(build(levels - 1, grid, grid_levels, at, tolerance));
+            node.branch.push_back(build(levels - 1, grid, grid_levels, at, tolerance, between));
         }
     }
     nodes_.push_back(std::move(node));
@@ -171,17 +174,19 @@ double TensorTree::at(const std::array<double, 4>& coordinates) const {
     return node->values[index];
 }
 
-void TensorTree::append_text(std::size_t index, std::string& text) const {
+void TensorTree::append_text(std::size_t index, std::string& text,
+                             const std::function<void()>& between) const {
+    if (between) between();
     const Node& node = nodes_[index];
     text += '{';
-    for (const std::size_t child : node.branch) append_text(child, text);
+    for (const std::size_t child : node.branch) append_text(child, text, between);
     for (const double value : node.values) text += fmt::format(" {:.5g}", value);
     text += node.branch.empty() ? " }\n" : "}\n";
 }
 
-std::string TensorTree::text() const {
+std::string TensorTree::text(const std::function<void()>& between) const {
     std::string text;
-    append_text(root_, text);
+    append_text(root_, text, between);
     return text;
 }
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,12 +36,14 @@ class TensorTree {
   public:
     /// From a full grid of 2^levels values a side, the first coordinate slowest: cubes whose values
     /// differ by less than `tolerance` of the largest of them become one.
-    TensorTree(int rank, int levels, const std::vector<double>& grid, double tolerance);
+    /// `between` is called between nodes, and may throw.
+    TensorTree(int rank, int levels, const std::vector<double>& grid, double tolerance,
+               std::function<void()> between = {});
     /// From the text of nested braces. Throws Error(InvalidInput, where).
     TensorTree(int rank, std::string_view text, const std::string& where);
 
     double at(const std::array<double, 4>& coordinates) const;
-    std::string text() const;
+    std::string text(const std::function<void()>& between = {}) const;
     std::size_t nodes() const { return nodes_.size(); }
 
   private:
@@ -50,9 +53,11 @@ class TensorTree {
         std::vector<double> values;       ///< the first coordinate slowest
     };
     std::size_t build(int levels, const std::vector<double>& grid, int grid_levels,
-                      std::array<std::size_t, 4> corner, double tolerance);
+                      std::array<std::size_t, 4> corner, double tolerance,
+                      const std::function<void()>& between);
     std::size_t parse(std::string_view text, std::size_t& at, int depth, const std::string& where);
-    void append_text(std::size_t node, std::string& text) const;
+    void append_text(std::size_t node, std::string& text,
+                     const std::function<void()>& between) const;
 
     int rank_;
     std::vector<Node> nodes_;

@@ -85,10 +85,11 @@ BsdfFormat::Remarks write(const ExportSource& source, const FormatOptions& optio
     const Bsdf& bsdf = rank == 3 ? source.isotropic_bsdf() : source.bsdf();
     const int levels = options.count("levels", 1, rank == 3 ? 8 : 6,
                                      levels_for(bsdf, source.luminance_weights(), rank));
+    const auto asked = [&] { source.check_stopped(); };
     const TensorTree tree(rank, levels,
                           grid_of(bsdf, source.luminance_weights(), rank, levels, source.threads()),
-                          kTolerance);
-    AtomicFile file(path);
+                          kTolerance, asked);
+    AtomicFile file(path, source.watched());
     file.write(window_opening(source) +
                fmt::format("<DataDefinition>\n<IncidentDataStructure>TensorTree{}"
                            "</IncidentDataStructure>\n</DataDefinition>\n",
@@ -101,7 +102,7 @@ BsdfFormat::Remarks write(const ExportSource& source, const FormatOptions& optio
         "<WavelengthDataDirection>Reflection Back</WavelengthDataDirection>\n"
         "<AngleBasis>LBNL/Shirley-Chiu</AngleBasis>\n"
         "<ScatteringDataType>BTDF</ScatteringDataType>\n<ScatteringData>\n");
-    file.write(tree.text() + "</ScatteringData>\n</WavelengthDataBlock>\n</WavelengthData>\n" +
+    file.write(tree.text(asked) + "</ScatteringData>\n</WavelengthDataBlock>\n</WavelengthData>\n" +
                window_closing());
     file.commit();
     BsdfFormat::Remarks remarks = {

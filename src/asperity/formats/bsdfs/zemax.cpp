@@ -108,18 +108,22 @@ std::string angles_text(const char* name, const std::vector<double>& angles) {
     return text + "\n";
 }
 
-std::string data_text(const AngleTable& table, int channel) {
-    std::string text = "DataBegin\r\n";
+/// Line by line: a table may be a hundred megabytes, and who asks to stop need not wait for it.
+void write_data(AtomicFile& file, const AngleTable& table, int channel) {
+    file.write("DataBegin\r\n");
     for (std::size_t p = 0; p < table.phi_i.size(); ++p)
         for (std::size_t t = 0; t < table.theta_i.size(); ++t) {
-            text += fmt::format("TIS {:.6g}\r\n", integral_of(table, p, t, channel));
+            file.write(fmt::format("TIS {:.6g}\r\n", integral_of(table, p, t, channel)));
             const double* const f = &table.f[table.block(p, t, channel)];
-            for (std::size_t a = 0; a < table.azimuth.size(); ++a)
+            for (std::size_t a = 0; a < table.azimuth.size(); ++a) {
+                std::string line;
                 for (std::size_t r = 0; r < table.polar.size(); ++r)
-                    text += fmt::format("{:.4E}{}", f[r * table.azimuth.size() + a],
+                    line += fmt::format("{:.4E}{}", f[r * table.azimuth.size() + a],
                                         r + 1 < table.polar.size() ? "\t" : "\r\n");
+                file.write(line);
+            }
         }
-    return text + "DataEnd\r\n";
+    file.write("DataEnd\r\n");
 }
 
 BsdfFormat::Remarks write(const ExportSource& source, const FormatOptions& options,
@@ -137,7 +141,7 @@ BsdfFormat::Remarks write(const ExportSource& source, const FormatOptions& optio
     const bool colour = source.channels() == 3;
     fill(table, source.isotropic() ? source.isotropic_bsdf() : source.bsdf(),
          tristimulus_or_luminance(source), source.threads());
-    AtomicFile file(path);
+    AtomicFile file(path, source.watched());
     for (const std::string& line : source.provenance()) file.write("#" + line + "\r\n");
     file.write(fmt::format(
         "Source  Measured\r\nSymmetry  {}\r\nSpectralContent  {}\r\n"
@@ -147,9 +151,10 @@ BsdfFormat::Remarks write(const ExportSource& source, const FormatOptions& optio
     file.write(angles_text("AngleOfIncidence ", table.theta_i));
     file.write(angles_text("ScatterAzimuth", table.azimuth));
     file.write(angles_text("ScatterRadial", table.polar) + "\r\n");
-    for (int c = 0; c < table.channels; ++c)
-        file.write(std::string(colour ? kTristimulus[std::size_t(c)] : "Monochrome") + "\r\n" +
-                   data_text(table, c));
+    for (int c = 0; c < table.channels; ++c) {
+        file.write(std::string(colour ? kTristimulus[std::size_t(c)] : "Monochrome") + "\r\n");
+        write_data(file, table, c);
+    }
     file.commit();
     BsdfFormat::Remarks remarks = {
         "polar angles are around the mirror direction; what lies below "

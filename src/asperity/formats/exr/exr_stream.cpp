@@ -64,12 +64,15 @@ class ExrStream : public Imf::OStream {
 
 }  // namespace
 
-void write_exr(const std::string& path, const std::function<void(Imf::OStream&)>& write) {
-    AtomicFile file(path);
+void write_exr(const std::string& path, const std::function<void(Imf::OStream&)>& write,
+               const Run* until) {
+    AtomicFile file(path, until);
     ExrStream stream(file);
     std::string reason;
     try {
         write(stream);
+    } catch (const Error&) {
+        throw;
     } catch (const std::bad_alloc&) {
         throw Error(ErrorCode::OutOfMemory, "no memory to write the EXR", path);
     } catch (const std::exception& error) {  // OpenEXR throws Iex::BaseExc

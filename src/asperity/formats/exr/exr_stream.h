@@ -2,6 +2,7 @@
 #pragma once
 
 #include <ImfIO.h>
+#include <asperity/core/run.h>
 
 #include <functional>
 #include <string>
@@ -9,8 +10,9 @@
 namespace asperity::io {
 
 /// Writes an OpenEXR file through `write`, which hands the stream to the library's writers and lets
-/// go of them before it returns. The file appears whole or not at all (AtomicFile).
-/// Throws Error(InputOutput, path), Error(OutOfMemory, path).
-void write_exr(const std::string& path, const std::function<void(Imf::OStream&)>& write);
+/// go of them before it returns. The file appears whole or not at all (AtomicFile, and its
+/// `until`). Throws Error(InputOutput, path), Error(OutOfMemory, path).
+void write_exr(const std::string& path, const std::function<void(Imf::OStream&)>& write,
+               const Run* until = nullptr);
 
 }  // namespace asperity::io

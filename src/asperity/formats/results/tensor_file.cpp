@@ -226,7 +226,8 @@ std::uint64_t size_of(TensorType type) {
     return kSizes[static_cast<std::size_t>(type)];
 }
 
-void write_tensor_file(const std::string& path, std::span<const TensorBlock> blocks) {
+void write_tensor_file(const std::string& path, std::span<const TensorBlock> blocks,
+                       const Run* until) {
     for (const TensorBlock& block : blocks) check_block(path, block);
     if (blocks.size() > kMaxTensorFields)
         throw Error(ErrorCode::Usage, fmt::format("{} fields are too many", blocks.size()), path);
@@ -246,7 +247,7 @@ void write_tensor_file(const std::string& path, std::span<const TensorBlock> blo
     }
 
     // The table and the blocks, each after its padding.
-    AtomicFile file(path);
+    AtomicFile file(path, until);
     file.write(table);
     end = table.size();
     for (const TensorBlock& block : blocks) {

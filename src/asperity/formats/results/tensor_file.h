@@ -12,6 +12,7 @@
 // so on.
 #pragma once
 
+#include <asperity/core/run.h>
 #include <asperity/formats/read_file.h>
 #include <asperity/formats/results/packed_data.h>
 
@@ -72,9 +73,10 @@ inline constexpr std::uint32_t kMaxTensorFields = 4096;
 inline constexpr std::uint16_t kMaxTensorName = 255;
 inline constexpr std::uint16_t kMaxTensorDimensions = 16;
 
-/// Writes a container, whole or not at all (AtomicFile). Throws Error(InputOutput, path), and
-/// Error(Usage, path) when a name, a shape or the parts do not fit the format.
-void write_tensor_file(const std::string& path, std::span<const TensorBlock> blocks);
+/// Writes a container, whole or not at all (AtomicFile, and its `until`). Throws Error(InputOutput,
+/// path), and Error(Usage, path) when a name, a shape or the parts do not fit the format.
+void write_tensor_file(const std::string& path, std::span<const TensorBlock> blocks,
+                       const Run* until = nullptr);
 
 /// True when the file begins with the container's magic and version; false for anything else.
 bool looks_like_tensor_file(const std::string& path);
