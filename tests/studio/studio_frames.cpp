@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frame times of both scenes by the program's own counter, at 1920 x 1080, while the camera is
+// How long the window takes to be there at the first start, and
+// frame times of both scenes by the program's own counter, at 1920 x 1080, while the camera is
 // dragged round and after it stopped: a surface of 512 x 512 samples, and a model, a file if one is
 // named. Prints, judges nothing.
 #include "model/first_session.h"
+#include "view/main_window.h"
 #include "view/model_scene.h"
 #include "view/surface_scene.h"
 
@@ -77,6 +79,39 @@ void measure(Viewport& view, const char* name) {
         1000 * cpu_moving / std::max(1, frames), still, cpu_still);
 }
 
+/// Tells when a widget is first painted.
+class FirstPaint : public QObject {
+  public:
+    explicit FirstPaint(QWidget& widget) { widget.installEventFilter(this); }
+    bool is_there() const { return there_; }
+    bool eventFilter(QObject*, QEvent* event) override {
+        there_ = there_ || event->type() == QEvent::Paint;
+        return false;
+    }
+
+  private:
+    bool there_ = false;
+};
+
+/// As asperity-studio starts, from the beginning of its main function on.
+void measure_window() {
+    QElapsedTimer clock;
+    clock.start();
+    MainWindow window;
+    FirstPaint paint(window);
+    bool pictured = false;
+    for (Viewport* view : window.findChildren<Viewport*>())
+        QObject::connect(view, &Viewport::frame_shown, [&] { pictured = true; });
+    window.begin(true);
+    window.resize(kSize);
+    window.show();
+    run_until([&] { return paint.is_there(); });
+    const double painted = 1e-3 * double(clock.elapsed());
+    run_until([&] { return pictured; });
+    fmt::print("first start: window {:.2f} s, its first picture {:.2f} s\n", painted,
+               1e-3 * double(clock.elapsed()));
+}
+
 using Edit = std::function<void(StudioSettings&)>;
 
 void wait(int milliseconds) {
@@ -143,6 +178,7 @@ void measure_model(Workbench& bench, const QString& model, bool only_first) {
 
 int main(int argc, char** argv) {
     const QApplication application(argc, argv);
+    if (argc == 1) measure_window();
     Workbench bench;
     if (argc <= 2) measure_surface(bench);
     measure_model(bench, argc > 1 ? QString::fromLocal8Bit(argv[1]) : QString("knot"), argc > 2);
