@@ -72,6 +72,7 @@ class Gonioreflectometer {
     bool prepare() {
         try {
             head_.surface = statistics(surface_, run_);
+            note_narrow_lobes(head_, layers_.theta_i());
             check_scale(surface_, head_.surface.min_height, head_.surface.max_height,
                         layers_.theta_i());
             if (listener_.begun) listener_.begun(head_);

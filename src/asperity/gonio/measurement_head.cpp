@@ -8,6 +8,9 @@
 #include <asperity/surface/digest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace asperity {
 
 Measurement head_of(const Heightfield& surface, const Experiment& experiment, const Run& run) {
@@ -46,6 +49,25 @@ Measurement head_of(const Heightfield& surface, const Experiment& experiment, co
             "facets average both polarisations: what a dielectric reflects twice may be up to 41 % "
             "too dark");
     return m;
+}
+
+void note_narrow_lobes(Measurement& head, const std::vector<double>& theta_i) {
+    constexpr double kFewCells = 8;
+    // A facet tilted by a turns light from above by 2 a, and sideways by 2 a cos(theta_i)
+    const double width = 2 * head.surface.rms_gradient;
+    const double cells = width * head.detector.rows() / (0.5 * kPi);
+    if (!(width > 0) || cells >= kFewCells || theta_i.empty()) return;
+    const double column = 2 * kPi / head.detector.columns();
+    const double most = *std::max_element(theta_i.begin(), theta_i.end());
+    if (width * std::cos(most) >= column) return;
+    const double from = degrees(std::acos(std::min(1.0, column / width)));
+    constexpr double kStep = 32;
+    const double enough = kStep * std::ceil(head.detector.columns() * kFewCells / (cells * kStep));
+    head.notes.push_back(fmt::format(
+        "lobes of alpha {:.2g} are {:.2g} cells wide in light from above, and from {:.0f} degrees "
+        "on narrower than a cell: read between cells and layers they are rough; --resolution {} "
+        "resolves them, or a rougher surface",
+        head.surface.rms_gradient, cells, from, enough));
 }
 
 void check(const MeasureScope& scope) {
