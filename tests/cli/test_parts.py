@@ -10,7 +10,7 @@ from program import PROGRAM, ProgramTest, main, run
 
 # A few seconds of one thread, in batches of some milliseconds.
 WORK = ["simulate", "--surface", "gaussian:alpha=0.3,size=128", "--theta", "0,40,75", "--material",
-        "Au", "--resolution", "32", "--jitter", "1500", "--batches", "64"]
+        "Au", "--resolution", "64", "--jitter", "1500", "--batches", "64"]
 
 
 class Parts(ProgramTest):
