@@ -29,6 +29,7 @@ endif()
 set(ASPERITY_TEST_SUFFIX "")
 set(ASPERITY_TEST_OPTIONS "")
 set(ASPERITY_TEST_COST 5) # seconds, roughly: the long ones begin first
+set(ASPERITY_TEST_SLOWNESS 1)
 if(ASPERITY_SANITIZE)
     set(ASPERITY_TEST_SUFFIX _sanitized)
     if(ASPERITY_SANITIZE MATCHES thread)
@@ -36,6 +37,7 @@ if(ASPERITY_SANITIZE)
     endif()
     set(ASPERITY_TEST_OPTIONS -O0)
     set(ASPERITY_TEST_COST 20)
+    set(ASPERITY_TEST_SLOWNESS 4)
 endif()
 
 # asperity_precompile(GROUP target ...): reads cmake/precompiled/GROUP.h once for all targets of the
@@ -65,12 +67,12 @@ endfunction()
 # Only in the build: all of a header-only library is in ours once that is compiled.
 set(ASPERITY_HEADER_ONLY Eigen3::Eigen nlohmann_json::nlohmann_json)
 
-# asperity_module(NAME SOURCES ... [TESTS ...] [LIBS ...] [PRIVATE_LIBS ...])
+# asperity_module(NAME SOURCES ... [TESTS ...] [TEST_COST seconds] [LIBS ...] [PRIVATE_LIBS ...])
 # Makes the target asperity_NAME, which programs elsewhere know as asperity::NAME, the component of the
-# same name, and, from TESTS, the test binary asperity_NAME_test. A module is left out when a library
+# same name, and, from TESTS, the test binary asperity_NAME_test (TEST_COST: see asperity_test). A module is left out when a library
 # it needs was not asked for (ASPERITY_COMPONENTS) or when a module it needs was left out.
 function(asperity_module name)
-    cmake_parse_arguments(M "" "" "SOURCES;TESTS;LIBS;PRIVATE_LIBS" ${ARGN})
+    cmake_parse_arguments(M "" "TEST_COST" "SOURCES;TESTS;LIBS;PRIVATE_LIBS" ${ARGN})
     foreach(lib IN LISTS M_LIBS M_PRIVATE_LIBS)
         if(lib MATCHES "^asperity_|::|^embree$" AND NOT TARGET ${lib})
             message(STATUS "asperity_${name} is left out: it needs ${lib}")
@@ -95,7 +97,8 @@ function(asperity_module name)
         asperity_precompile(library asperity_${name})
     endif()
     if(ASPERITY_BUILD_TESTS AND M_TESTS)
-        asperity_test(asperity_${name}_test LABEL unit SOURCES ${M_TESTS} LIBS asperity_${name})
+        asperity_test(asperity_${name}_test LABEL unit COST ${M_TEST_COST} SOURCES ${M_TESTS}
+            LIBS asperity_${name})
     endif()
 endfunction()
 
@@ -118,17 +121,36 @@ function(asperity_vectors name)
     endif()
 endfunction()
 
-# asperity_test(NAME LABEL label SOURCES ... LIBS ...): a GoogleTest binary and its ctest entry.
-# All tests of a label are built by the target <label>_tests.
+# asperity_test_options(TARGET GROUP COST): how a test is compiled, and its variable `test_cost`. What is
+# computed is the library's: what counts for most is that they compile quickly. A test of some COST, the
+# seconds that it runs for where nothing is sanitized, is worth optimising there, too: of an inline
+# function that test and library share, the linker takes the test's copy for both.
+function(asperity_test_options name group cost)
+    set(options ${ASPERITY_TEST_OPTIONS})
+    set(test_cost ${ASPERITY_TEST_COST})
+    if(cost)
+        math(EXPR test_cost "${cost} * ${ASPERITY_TEST_SLOWNESS}")
+        if(ASPERITY_SANITIZE)
+            set(options "")
+            set(group long_${group})
+        endif()
+    endif()
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1> ${options})
+    if(group MATCHES tests)
+        asperity_precompile(${group} ${name})
+    endif()
+    set(test_cost ${test_cost} PARENT_SCOPE)
+endfunction()
+
+# asperity_test(NAME LABEL label [COST seconds] SOURCES ... LIBS ...): a GoogleTest binary and its ctest
+# entry. All tests of a label are built by the target <label>_tests.
 function(asperity_test name)
-    cmake_parse_arguments(T "" "LABEL" "SOURCES;LIBS" ${ARGN})
+    cmake_parse_arguments(T "" "LABEL;COST" "SOURCES;LIBS" ${ARGN})
     add_executable(${name} ${T_SOURCES})
     target_link_libraries(${name} PRIVATE ${T_LIBS} asperity_flags GTest::gtest_main)
-    # What is computed is the library's: what counts here is that it compiles quickly.
-    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1> ${ASPERITY_TEST_OPTIONS})
-    asperity_precompile(tests ${name})
+    asperity_test_options(${name} tests "${T_COST}")
     add_test(NAME ${name}${ASPERITY_TEST_SUFFIX} COMMAND ${name})
-    set_tests_properties(${name}${ASPERITY_TEST_SUFFIX} PROPERTIES LABELS ${T_LABEL} COST ${ASPERITY_TEST_COST})
+    set_tests_properties(${name}${ASPERITY_TEST_SUFFIX} PROPERTIES LABELS ${T_LABEL} COST ${test_cost})
     if(NOT TARGET ${T_LABEL}_tests)
         add_custom_target(${T_LABEL}_tests)
     endif()
