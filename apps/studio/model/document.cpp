@@ -21,11 +21,6 @@ constexpr auto kOneMovement = std::chrono::seconds(1);
 constexpr int kMostSteps = 1000;
 constexpr std::uint64_t kLongestSession = 1 << 20;
 
-/// Everything a session keeps is in its text, so that decides what is equal.
-bool equal(const StudioSettings& a, const StudioSettings& b) {
-    return session_text(a) == session_text(b);
-}
-
 std::string file_name(const QString& path) {
     return QFile::encodeName(path).toStdString();
 }
@@ -35,14 +30,14 @@ std::string file_name(const QString& path) {
 /// A change from one state of all settings to another.
 class Document::Step : public QUndoCommand {
   public:
-    Step(Document& document, const QString& what, StudioSettings after)
+    Step(Document& document, const QString& what, State after)
         : QUndoCommand(what),
           document_(document),
-          before_(document.settings_),
+          before_(document.state_),
           after_(std::move(after)) {}
 
-    void undo() override { document_.settings_ = before_; }
-    void redo() override { document_.settings_ = after_; }
+    void undo() override { document_.state_ = before_; }
+    void redo() override { document_.state_ = after_; }
 
     int id() const override { return 1; }  // steps of this kind may be merged
     bool mergeWith(const QUndoCommand* other) override {
@@ -51,15 +46,18 @@ class Document::Step : public QUndoCommand {
             return false;
         after_ = next->after_;
         when_ = next->when_;
-        setObsolete(equal(before_, after_));
+        setObsolete(before_.text == after_.text);
         return true;
     }
 
   private:
     Document& document_;
-    StudioSettings before_, after_;
+    State before_, after_;
     Clock::time_point when_ = Clock::now();
 };
+
+Document::State::State(StudioSettings all)
+    : settings(std::move(all)), text(session_text(settings)) {}
 
 Document::Document(QObject* parent) : QObject(parent) {
     undo_.setUndoLimit(kMostSteps);
@@ -69,9 +67,10 @@ Document::Document(QObject* parent) : QObject(parent) {
 }
 
 void Document::change(const QString& what, const std::function<void(StudioSettings&)>& edit) {
-    StudioSettings after = settings_;
-    edit(after);
-    if (equal(settings_, after)) return;
+    StudioSettings edited = settings();
+    edit(edited);
+    State after(std::move(edited));
+    if (after.text == state_.text) return;
     undo_.push(new Step(*this, what, std::move(after)));
 }
 
@@ -85,7 +84,7 @@ void Document::restore(const StudioSettings& settings, const QString& path) {
 }
 
 void Document::replace(const StudioSettings& settings, const QString& path) {
-    settings_ = settings;
+    state_ = State(settings);
     undo_.clear();
     set_path(path);
     announce();
@@ -97,7 +96,7 @@ void Document::open(const QString& path) {
 }
 
 void Document::save(const QString& path) {
-    StudioSettings saved = settings_;
+    StudioSettings saved = settings();
     for (const auto& look : looks_) look(saved);
     io::AtomicFile file(file_name(path));
     file.write(session_text(saved));
@@ -107,8 +106,8 @@ void Document::save(const QString& path) {
 }
 
 void Document::announce() {
-    const StudioSettings before = std::exchange(told_, settings_);
-    if (!equal(before, settings_)) emit changed(before);
+    const State before = std::exchange(told_, state_);
+    if (before.text != state_.text) emit changed(before.settings);
 }
 
 void Document::set_path(const QString& path) {

@@ -8,6 +8,7 @@
 #include <QUndoStack>
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace asperity::studio {
@@ -22,7 +23,7 @@ class Document : public QObject {
   public:
     explicit Document(QObject* parent = nullptr);
 
-    const StudioSettings& settings() const { return settings_; }
+    const StudioSettings& settings() const { return state_.settings; }
 
     /// Changes settings in a step that can be undone. `what` is its name in the menu, e.g. "Surface
     /// Roughness"; steps with the same name in quick succession (a dragged slider) become one. An
@@ -55,12 +56,20 @@ class Document : public QObject {
 
   private:
     class Step;
+    /// All settings and the text of their session: everything that a session keeps is in its text,
+    /// so that decides what is equal. It is kept as it takes long to make.
+    struct State {
+        explicit State(StudioSettings all = {});
+        StudioSettings settings;
+        std::string text;
+    };
+
     void replace(const StudioSettings& settings, const QString& path);
     void announce();
     void set_path(const QString& path);
 
-    StudioSettings settings_;
-    StudioSettings told_;  ///< as the listeners of `changed` know them
+    State state_;
+    State told_ = state_;  ///< as the listeners of `changed` know them
     std::vector<std::function<void(StudioSettings&)>> looks_;
     QUndoStack undo_;
     QString path_;

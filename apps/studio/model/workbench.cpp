@@ -5,7 +5,9 @@
 
 #include <asperity/core/error.h>
 #include <asperity/gonio/angles_of_lobe.h>
-#include <asperity/gonio/experiment_text.h>
+#include <asperity/gonio/experiment_params.h>
+#include <asperity/params/settings_text.h>
+#include <asperity/surface/surface_params.h>
 
 #include <vector>
 
@@ -14,15 +16,17 @@ namespace {
 
 // Settings are equal if and only if their texts are.
 
+template <typename Settings>
+bool same(const ParamTable<Settings>& table, const Settings& a, const Settings& b) {
+    return settings_text(table, a) == settings_text(table, b);
+}
+
 bool same_experiment(const Experiment& a, const Experiment& b) {
-    return to_text(a) == to_text(b);
+    return same(experiment_params(), a, b);
 }
 
 bool same_surface(const SurfaceSettings& a, const SurfaceSettings& b) {
-    Experiment of_a, of_b;
-    of_a.surface = a;
-    of_b.surface = b;
-    return same_experiment(of_a, of_b);
+    return same(surface_params(), a, b);
 }
 
 bool same_detector(const DetectorSettings& a, const DetectorSettings& b) {

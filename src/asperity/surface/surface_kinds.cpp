@@ -20,6 +20,13 @@ struct Registry {
     Registry() {
         for (const auto make : generators::kBuiltin) kinds.push_back(make());
     }
+
+    /// Or nullptr. With the mutex locked, as long as it is.
+    const SurfaceKind* find(std::string_view name) const {
+        const auto found = std::find_if(kinds.begin(), kinds.end(),
+                                        [&](const SurfaceKind& kind) { return kind.name == name; });
+        return found == kinds.end() ? nullptr : &*found;
+    }
 };
 
 Registry& registry() {
@@ -42,9 +49,8 @@ std::vector<SurfaceKind> surface_kinds() {
 std::optional<SurfaceKind> find_surface_kind(std::string_view name) {
     Registry& all = registry();
     const std::lock_guard lock(all.mutex);
-    const auto found = std::find_if(all.kinds.begin(), all.kinds.end(),
-                                    [&](const SurfaceKind& kind) { return kind.name == name; });
-    return found == all.kinds.end() ? std::nullopt : std::optional(*found);
+    const SurfaceKind* found = all.find(name);
+    return found == nullptr ? std::nullopt : std::optional(*found);
 }
 
 void add_surface_kind(SurfaceKind kind) {
@@ -76,8 +82,11 @@ bool surface_uses(const std::string& kind, std::string_view setting) {
         return std::find(std::begin(kOfFiles), std::end(kOfFiles), setting) != std::end(kOfFiles);
     }
     if (setting == "size") return true;
-    const auto found = find_surface_kind(kind);
-    return found && (contains(found->params, setting) || find(found->own, setting));
+    // Asked for every setting of every kind: nothing is copied
+    Registry& all = registry();
+    const std::lock_guard lock(all.mutex);
+    const SurfaceKind* found = all.find(kind);
+    return found != nullptr && (contains(found->params, setting) || find(found->own, setting));
 }
 
 }  // namespace asperity

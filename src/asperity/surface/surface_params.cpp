@@ -45,11 +45,11 @@ std::string kind_names(std::string_view separator) {
 
 /// The kinds that use a setting, "gaussian, ggx", with files of heights as "files"; nothing where
 /// all made surfaces do.
-std::string users_of(const std::string& setting) {
+std::string users_of(const std::string& setting, const std::vector<SurfaceKind>& kinds) {
     std::string users;
     if (surface_uses("", setting)) return users;
     const auto add = [&](const std::string& name) { users += (users.empty() ? "" : ", ") + name; };
-    for (const SurfaceKind& kind : surface_kinds())
+    for (const SurfaceKind& kind : kinds)
         if (surface_uses(kind.name, setting)) add(kind.name);
     if (surface_uses(kSurfaceFile, setting)) add("files");
     return users;
@@ -58,7 +58,7 @@ std::string users_of(const std::string& setting) {
 std::string why_unused(const std::string& setting, const S& s) {
     if (surface_uses(s.kind, setting)) return {};
     const std::string who = s.kind == kSurfaceFile ? "a surface read from a file" : s.kind;
-    const std::string users = users_of(setting);
+    const std::string users = users_of(setting, surface_kinds());
     return who + " does not use it" + (users.empty() ? "" : "; it is for " + users);
 }
 
@@ -219,12 +219,13 @@ ParamTable<S> surface_params() {
     for (Param<S>& row : shared_rows()) table.push_back(std::move(row));
     append(table, preparation_params(), &S::ready);
     table.push_back(wavelength_row());
-    for (const SurfaceKind& kind : surface_kinds())
+    const std::vector<SurfaceKind> kinds = surface_kinds();
+    for (const SurfaceKind& kind : kinds)
         table.insert(table.end(), kind.own.begin(), kind.own.end());
     for (Param<S>& row : table) {
         row.info.group = "Surface";
         const std::string name = row.info.name;
-        row.info.users = users_of(name);
+        row.info.users = users_of(name, kinds);
         row.unused = [name](const S& s) { return why_unused(name, s); };
         if (name == "hurst") row.unused = why_no_hurst;
     }
