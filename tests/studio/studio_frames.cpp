@@ -101,14 +101,15 @@ void measure_window() {
     FirstPaint paint(window);
     bool pictured = false;
     for (Viewport* view : window.findChildren<Viewport*>())
-        QObject::connect(view, &Viewport::frame_shown, [&] { pictured = true; });
+        QObject::connect(view, &Viewport::frame_shown,
+                         [&] { pictured = bool(window.workbench().surface().surface()); });
     window.begin(true);
     window.resize(kSize);
     window.show();
     run_until([&] { return paint.is_there(); });
     const double painted = 1e-3 * double(clock.elapsed());
     run_until([&] { return pictured; });
-    fmt::print("first start: window {:.2f} s, its first picture {:.2f} s\n", painted,
+    fmt::print("first start: window {:.2f} s, the surface in it {:.2f} s\n", painted,
                1e-3 * double(clock.elapsed()));
 }
 
