@@ -2,7 +2,9 @@
 // The viewport: what mouse and keys do to the camera (thesis table 2.1), and where things lie.
 #include "view/viewport.h"
 
+#include <QNativeGestureEvent>
 #include <QPainter>
+#include <QPointingDevice>
 #include <QSignalSpy>
 #include <QTest>
 #include <QWheelEvent>
@@ -43,6 +45,14 @@ void scroll(Viewport& view, int notches) {
     QCoreApplication::sendEvent(&view, &event);
 }
 
+/// What a trackpad tells while two fingers move: by how much they are farther apart.
+void pinch(Viewport& view, double farther) {
+    const QPointF at = QRectF(view.rect()).center();
+    QNativeGestureEvent event(Qt::ZoomNativeGesture, QPointingDevice::primaryPointingDevice(), 2, at,
+                              at, view.mapToGlobal(at), farther, {});
+    QCoreApplication::sendEvent(&view, &event);
+}
+
 /// How far the camera goes while a key is held for `milliseconds`.
 Vec3 way_of_key(Viewport& view, Qt::Key key, int milliseconds = 120) {
     const Vec3 from = view.camera().position;
@@ -66,6 +76,7 @@ class ViewportTest : public QObject {
     void cleanup() { view_.reset(); }
 
     void orbiter_drags_round_and_zooms();
+    void fingers_drawn_apart_bring_nearer();
     void orbiter_knows_no_keys();
     void first_person_walks_and_looks_data();
     void first_person_walks_and_looks();
@@ -117,6 +128,21 @@ void ViewportTest::orbiter_drags_round_and_zooms() {
     QTRY_VERIFY_WITH_TIMEOUT(std::abs(length(view_->camera().position) - 4 * 0.81) < 1e-9, 60000);
     scroll(*view_, -3);
     QTRY_VERIFY_WITH_TIMEOUT(std::abs(length(view_->camera().position) - 4 / 0.9) < 1e-9, 60000);
+}
+
+void ViewportTest::fingers_drawn_apart_bring_nearer() {
+    // Apart by a seventh is a notch of the wheel
+    pinch(*view_, 2.0 / 7);
+    QTRY_VERIFY_WITH_TIMEOUT(std::abs(length(view_->camera().position) - 4 * 0.81) < 1e-9, 60000);
+    pinch(*view_, -3.0 / 7);
+    QTRY_VERIFY_WITH_TIMEOUT(std::abs(length(view_->camera().position) - 4 / 0.9) < 1e-9, 60000);
+    // Turning two fingers is nothing a camera knows
+    const QPointF at(200, 150);
+    QNativeGestureEvent turned(Qt::RotateNativeGesture, QPointingDevice::primaryPointingDevice(), 2,
+                               at, at, at, 0.5, {});
+    QCoreApplication::sendEvent(view_.get(), &turned);
+    QTest::qWait(60);
+    QVERIFY(std::abs(length(view_->camera().position) - 4 / 0.9) < 1e-9);
 }
 
 void ViewportTest::orbiter_knows_no_keys() {
