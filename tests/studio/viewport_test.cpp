@@ -48,8 +48,8 @@ void scroll(Viewport& view, int notches) {
 /// What a trackpad tells while two fingers move: by how much they are farther apart.
 void pinch(Viewport& view, double farther) {
     const QPointF at = QRectF(view.rect()).center();
-    QNativeGestureEvent event(Qt::ZoomNativeGesture, QPointingDevice::primaryPointingDevice(), 2, at,
-                              at, view.mapToGlobal(at), farther, {});
+    QNativeGestureEvent event(Qt::ZoomNativeGesture, QPointingDevice::primaryPointingDevice(), 2,
+                              at, at, view.mapToGlobal(at), farther, {});
     QCoreApplication::sendEvent(&view, &event);
 }
 

@@ -140,8 +140,9 @@ def test_compare_is_that_of_the_program(gold, program, tmp_path):
 def test_a_bsdf_of_ones_own_is_compared(gold):
     spec = "beckmann:alpha=0.3,material=Au"
     own, library = asperity.compare(gold, OfLibrary(spec)), asperity.compare(gold, spec)
-    np.testing.assert_array_equal(own.l1, library.l1)
-    np.testing.assert_array_equal(own.albedo_b, library.albedo_b)
+    # Of its own models the library looks at one side of the plane of incidence: sums in another order
+    np.testing.assert_allclose(own.l1, library.l1, rtol=1e-12)
+    np.testing.assert_allclose(own.albedo_b, library.albedo_b, rtol=1e-12)
     phong = Phong(20)
     c = asperity.compare("lambert:albedo=1", phong, theta_deg=[0], resolution=32)
     assert phong.calls < 40  # by arrays, not pair by pair

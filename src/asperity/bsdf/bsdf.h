@@ -64,6 +64,10 @@ class Bsdf {
     /// isotropic models only, whose averages over cells then cost half.
     virtual bool bilateral() const { return false; }
 
+    /// Incident polar angles [rad], rising, at which a table holds what was measured; between them
+    /// it interpolates. Empty: it has none of its own.
+    virtual std::vector<double> incident_angles() const { return {}; }
+
     /// Of models made of facets: the density D(wm) of their normals [1/sr], whose integral over the
     /// projected solid angle is 1 (Walter et al. 2007, eq. 4). None: the model has no facets.
     virtual std::optional<double> normal_density(Vec3) const { return std::nullopt; }

@@ -85,6 +85,31 @@ TEST(AngleFormats, AnisotropicLobesStandAtTheirAzimuth) {
     }
 }
 
+/// A table goes from format to format at the incidences it has, so that nothing is lost between
+/// them.
+TEST(AngleFormats, TablesKeepTheirIncidences) {
+    const test::TemporaryFolder folder;
+    AngleTable table;
+    table.theta_i = {radians(10), radians(22.5), radians(67.5)};
+    table.polar = even_angles(0, 90, 5);
+    table.azimuth = even_angles(0, 355, 5);
+    fill(table, *parse_brdf_spec("ggx:alpha=0.5"), {{1}}, 1);
+    const ExportSource source(make_table_bsdf(table, "file:by-hand", "by hand"), {}, 2);
+    const BsdfFormats formats;
+    for (const std::string& name : kFormats) {
+        const BsdfFormat& format = *formats.find(name);
+        const std::string path = folder / ("a." + format.endings.front());
+        format.write(source, FormatOptions(format.options, "step=5"), path);
+        const std::vector<double> angles = format.read(path)->incident_angles();
+        ASSERT_EQ(angles.size(), 3U) << name;
+        for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(angles[k], table.theta_i[k], 1e-6) << name;
+    }
+    // Wrapped in what hears a stop, it is still asked
+    asperity::Run run(1);
+    EXPECT_EQ(until_stopped(make_table_bsdf(table, "t", "t"), run)->incident_angles().size(), 3U);
+    EXPECT_TRUE(parse_brdf_spec("ggx:alpha=0.5")->incident_angles().empty());
+}
+
 TEST(Zemax, ByHand) {
     const test::TemporaryFolder folder;
     const auto file = [&](const std::string& type) {

@@ -62,6 +62,7 @@ class TableBsdf final : public CosineSampledBsdf {
     }
     std::string name() const override { return name_; }
     bool isotropic() const override { return table_.phi_i.size() == 1; }
+    std::vector<double> incident_angles() const override { return table_.theta_i; }
 
     void eval(Vec3 wi, Vec3 wo, std::span<double> f) const override {
         std::fill(f.begin(), f.end(), 0.0);
@@ -188,7 +189,9 @@ std::vector<double> even_angles(double first_deg, double last_deg, double step_d
 }
 
 std::vector<double> table_thetas(const ExportSource& source) {
-    return source.measurement() ? source.thetas() : even_angles(0, 85, 5);
+    if (source.measurement()) return source.thetas();
+    const std::vector<double> own = source.bsdf().incident_angles();
+    return own.empty() ? even_angles(0, 85, 5) : own;
 }
 
 std::unique_ptr<Bsdf> make_table_bsdf(AngleTable table, std::string name,

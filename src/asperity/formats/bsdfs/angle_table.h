@@ -55,7 +55,8 @@ void fill(AngleTable& table, const Bsdf& bsdf, const std::vector<std::vector<dou
 /// `count` angles from `first` to `last` [deg], in radians.
 std::vector<double> even_angles(double first_deg, double last_deg, double step_deg);
 
-/// Incident polar angles for a table: those measured, or every 5 degrees up to 85.
+/// Incident polar angles for a table: those measured, of a file of a table its own, or every 5
+/// degrees up to 85.
 std::vector<double> table_thetas(const ExportSource& source);
 
 /// A Bsdf of a table, linear between its nodes, clamped at its first and last incidence, zero

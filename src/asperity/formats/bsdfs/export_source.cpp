@@ -28,6 +28,7 @@ class IsotropicMean final : public Bsdf {
     std::vector<std::string> channel_names() const override { return bsdf_->channel_names(); }
     std::string name() const override { return bsdf_->name(); }
     bool isotropic() const override { return true; }
+    bool bilateral() const override { return true; }
 
     void eval(Vec3 wi, Vec3 wo, std::span<double> f) const override {
         std::fill(f.begin(), f.end(), 0.0);
@@ -83,6 +84,8 @@ class UntilStopped final : public Bsdf {
     std::vector<std::string> channel_names() const override { return bsdf_->channel_names(); }
     std::string name() const override { return bsdf_->name(); }
     bool isotropic() const override { return bsdf_->isotropic(); }
+    bool bilateral() const override { return bsdf_->bilateral(); }
+    std::vector<double> incident_angles() const override { return bsdf_->incident_angles(); }
     void eval(Vec3 wi, Vec3 wo, std::span<double> f) const override {
         check(run_);
         bsdf_->eval(wi, wo, f);

@@ -169,12 +169,16 @@ class RglBuilder {
         t.sigma = image_over_sphere(kSide, isotropic_ ? 2 : kSide,
                                     [&](Vec3 w, Point) { return projected_area(w, widths_); });
         const std::size_t normals = grid_.normals * grid_.normals, size = grid_.n * grid_.n;
+        // Large tables: to make room for one takes as long as a stop may
+        source_.check_stopped();
         t.vndf = {grid_.normals, grid_.normals, std::vector<float>(grid_.slices() * normals)};
+        source_.check_stopped();
         t.luminance = {grid_.n, grid_.n, std::vector<float>(grid_.slices() * size)};
+        source_.check_stopped();
         t.values = {grid_.n, grid_.n, std::vector<float>(grid_.slices() * channels_.size() * size)};
         parallel_for(grid_.slices(), threads, [&](std::size_t s) { fill_visible(t, s); });
         // Values are taken at the directions that readers will find with the numbers as written.
-        const Density visible(t.vndf);
+        const Density visible(t.vndf, [this] { source_.check_stopped(); });
         parallel_for(grid_.slices(), threads, [&](std::size_t s) { fill_values(t, visible, s); });
         return t;
     }

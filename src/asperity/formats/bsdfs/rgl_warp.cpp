@@ -66,12 +66,14 @@ double Images::eval(Point u, const Blend& blend) const {
     return sum;
 }
 
-Density::Density(Images images) : width_(images.width), height_(images.height) {
+Density::Density(Images images, const std::function<void()>& before_slice)
+    : width_(images.width), height_(images.height) {
     const std::size_t size = width_ * height_, slices = images.values.size() / size;
     values_.assign(images.values.begin(), images.values.end());
     columns_.resize(values_.size());
     rows_.resize(slices * height_);
     for (std::size_t s = 0; s < slices; ++s) {
+        if (before_slice) before_slice();
         double* values = &values_[s * size];
         double* columns = &columns_[s * size];
         double* rows = &rows_[s * height_];

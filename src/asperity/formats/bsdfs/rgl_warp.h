@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -61,8 +62,8 @@ struct Images {
 /// distributions are blended linearly, as the readers do.
 class Density {
   public:
-    /// Every slice needs a positive sum; the caller has checked.
-    explicit Density(Images images);
+    /// Every slice needs a positive sum; the caller has checked. `before_slice` may throw.
+    explicit Density(Images images, const std::function<void()>& before_slice = {});
 
     struct Warped {
         Point point;
