@@ -169,7 +169,9 @@ Experiment ExperimentOptions::read(const std::string& spec) {
         return option && option->count() > 0;
     };
     // Angles asked for by layers replace the fixed angles of a config file.
-    if (given("layers") && !given("theta")) experiment.illumination.theta_deg.clear();
+    if (given("layers") && given("theta"))
+        throw Error(ErrorCode::Usage, "it has no effect beside --theta", "layers");
+    if (given("layers")) experiment.illumination.theta_deg.clear();
     for (const auto& [key, option] : options_) {
         if (option->count() == 0) continue;
         const std::string value = text_of(option);

@@ -98,6 +98,7 @@ MISTAKES = [
     ("simulate --surface gaussian --surfaces 4 --batches 8", 2, "each of the --surfaces is a batch"),
     ("simulate --surface gaussian --surfaces 9 --rays 10", 2, "at most 5 surfaces"),
     ("gloss --surface gaussian --surfaces 4", 2, "a glossmeter looks at one surface"),
+    ("simulate --surface gaussian --theta 0,30 --layers auto", 2, "layers: it has no effect beside --theta"),
     # a file of another kind, or of another name
     ("info heights.gsf", 3, "it is a heightfield (gsf), not a result"),
     ("compare metal.asperity heights.gsf", 3, "asperity simulate --surface heights.gsf measures it"),

@@ -11,7 +11,7 @@ namespace asperity {
 
 /// Incident polar angles [degrees], rising from 0, for a table to be read between them: at most 10
 /// degrees apart, closer on steep surfaces and where the reflectance of the facets changes fast,
-/// and ever closer towards the horizon, until the surface's shadows no longer change. 18 for
+/// and ever closer towards the horizon, until the surface's shadows no longer change. 17 for
 /// mirrors of alpha 0.1 to 0.6. docs/theory.md, "Layers set by the lobe", has the rule.
 ///
 /// `rms_gradient` is that of the facets (Sdq, Beckmann's alpha), >= 0. Throws Error(Usage) as
