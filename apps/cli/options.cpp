@@ -168,9 +168,9 @@ Experiment ExperimentOptions::read(const std::string& spec) {
         const CLI::Option* option = app_->get_option_no_throw(std::string("--") + key);
         return option && option->count() > 0;
     };
-    // Angles asked for by layers replace the fixed angles of a config file.
     if (given("layers") && given("theta"))
         throw Error(ErrorCode::Usage, "it has no effect beside --theta", "layers");
+    // Angles asked for by layers replace the fixed angles of a config file.
     if (given("layers")) experiment.illumination.theta_deg.clear();
     for (const auto& [key, option] : options_) {
         if (option->count() == 0) continue;

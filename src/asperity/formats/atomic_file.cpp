@@ -80,6 +80,11 @@ bool sync_descriptor(int descriptor) {
 
 }  // namespace
 
+void check_stop(const Run* until) {
+    if (until && until->stop_requested())
+        throw Error(ErrorCode::Stopped, "stopped, nothing is written");
+}
+
 AtomicFile::AtomicFile(std::string path, const Run* until)
     : path_(std::move(path)), target_(path_), until_(until) {
     if (path_.empty()) throw Error(ErrorCode::InputOutput, "the file name is empty");
@@ -134,8 +139,7 @@ void AtomicFile::open_temporary() {
 
 void AtomicFile::write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
-        if (until_ && until_->stop_requested())
-            throw Error(ErrorCode::Stopped, "stopped, nothing is written");
+        check_stop(until_);
         const std::size_t piece =
             until_ ? std::min(bytes.size(), static_cast<std::size_t>(kStartBytes)) : bytes.size();
         const ssize_t written = ::write(descriptor_, bytes.data(), piece);

@@ -11,6 +11,9 @@
 
 namespace asperity::io {
 
+/// Throws Error(Stopped) where `until`, if it is given, is asked to stop: for what writes a file.
+void check_stop(const Run* until);
+
 /// A file that is written whole or not at all.
 ///
 /// The bytes go to a hidden temporary file in the same folder; commit() syncs it, renames it over

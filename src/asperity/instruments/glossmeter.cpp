@@ -77,9 +77,14 @@ class Glossmeter {
         r.geometry = geometry_;
         const double glass = optics_.glass(kGlossIndex);
         for (std::size_t c = 0; c < batches.front().received.size(); ++c) {
-            r.gloss.push_back(mean(batches, &BatchLight::received, c, 100 / glass));
-            if (has_aside()) r.haze.push_back(mean(batches, &BatchLight::aside, c, 100 / glass));
-            r.reflectance.push_back(mean(batches, &BatchLight::escaped, c, 1));
+            const auto in_units = [&](const std::vector<double> BatchLight::*account) {
+                return mean(batches,
+                            [&](const BatchLight& b) { return 100 / glass * (b.*account)[c]; });
+            };
+            r.gloss.push_back(in_units(&BatchLight::received));
+            if (has_aside()) r.haze.push_back(in_units(&BatchLight::aside));
+            r.reflectance.push_back(
+                mean(batches, [&](const BatchLight& b) { return b.escaped[c]; }));
         }
         for (const BatchLight& b : batches) r.rays += b.rays;
         const auto share = [&](std::vector<double> BatchLight::*account) {
@@ -98,26 +103,28 @@ class Glossmeter {
         r.geometry = geometry_;
         for (const BatchLight& b : batches) r.rays += b.rays;
         for (std::size_t c = 0; c < batches.front().received.size(); ++c) {
-            const WithError mirror = mean(batches, &BatchLight::received, c, 1);
+            const WithError mirror =
+                mean(batches, [&](const BatchLight& b) { return b.received[c]; });
             if (!(mirror.error < kDoiKnown * mirror.value)) return {geometry_, {}, r.rays};
-            const double aside = mean(batches, &BatchLight::aside, c, 0.5).value / mirror.value;
+            const auto aside_of = [&](const BatchLight& b) { return 0.5 * b.aside[c]; };
+            const double ratio = mean(batches, aside_of).value / mirror.value;
             // The error of a ratio, to first order: that of aside - ratio * mirror over mirror
-            std::vector<BatchLight> rests = batches;
-            for (BatchLight& b : rests) b.received[c] = 0.5 * b.aside[c] - aside * b.received[c];
-            const WithError rest = mean(rests, &BatchLight::received, c, 1 / mirror.value);
-            r.doi.push_back({100 * (1 - aside), 100 * rest.error});
+            const WithError rest = mean(batches, [&](const BatchLight& b) {
+                return (aside_of(b) - ratio * b.received[c]) / mirror.value;
+            });
+            r.doi.push_back({100 * (1 - ratio), 100 * rest.error});
         }
         return r;
     }
 
   private:
     bool has_aside() const { return geometry_.aside_deg > 0; }
-    /// The figure and its error, all batches counting alike.
-    static WithError mean(const std::vector<BatchLight>& batches,
-                          std::vector<double> BatchLight::*account, std::size_t c, double scale) {
+    /// What `light` gives of a batch, by ray, and its error, all batches counting alike.
+    template <class Light>
+    static WithError mean(const std::vector<BatchLight>& batches, const Light& light) {
         const auto n = static_cast<double>(batches.size());
         const auto value = [&](const BatchLight& b) {
-            return scale * (b.*account)[c] / static_cast<double>(b.rays);
+            return light(b) / static_cast<double>(b.rays);
         };
         WithError result;
         for (const BatchLight& b : batches) result.value += value(b) / n;

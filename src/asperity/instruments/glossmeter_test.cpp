@@ -25,6 +25,16 @@ Heightfield flat() {
     return s;
 }
 
+/// Grooves along y of facets tilted along x.
+Heightfield grooves(double tilt_deg) {
+    SurfaceSettings settings;
+    settings.kind = "vgroove";
+    settings.size = 64;
+    settings.tilt_deg = tilt_deg;
+    asperity::Run run(1);
+    return make_surface(settings, run);
+}
+
 GlossReport read(const Heightfield& surface, const OpticsSettings& optics = {},
                  std::uint64_t rays = 4000, int threads = 1) {
     GlossSettings settings;
@@ -87,17 +97,12 @@ TEST(Glossmeter, TheHazeIndexIsTheGlossAtSixtyLessThatAtTwenty) {
 // from 1.275 to 2.525 off the mirror direction the receptors at 1.9, of 0.9 to either side, see all
 // of it. Of 0.225 to 0.975 off, nine tenths lie within the 0.9 of the receptor for the gloss.
 TEST(Glossmeter, HazeIsWhatTwoReceptorsSeeTogether) {
-    SurfaceSettings settings;
-    settings.kind = "vgroove";
-    settings.size = 64;
     GlossSettings gloss;
     gloss.angles_deg = {20};
     gloss.run.rays = 20000;
     asperity::Run run(1);
     for (const double tilt : {0.3, 0.95, 2.0}) {
-        settings.tilt_deg = tilt;
-        const GlossReading r =
-            measure_gloss(make_surface(settings, run), {}, gloss, run).readings[0];
+        const GlossReading r = measure_gloss(grooves(tilt), {}, gloss, run).readings[0];
         const double glass = GlossOptics(standard_gloss_geometry(20)).glass(kGlossIndex);
         EXPECT_NEAR(r.haze[0].value, tilt == 0.95 ? 100 / glass : 0, 0.02 * 100 / glass) << tilt;
         EXPECT_NEAR(r.gloss[0].value, tilt == 0.3 ? 90 / glass : 0, 0.01 * 100 / glass) << tilt;
@@ -118,19 +123,12 @@ GlossReport read_doi(const Heightfield& surface, const DoiSettings& doi, std::ui
 // 0.2) and none the other. 1 - 0.5 * 0.3 / 0.2 = 0.25.
 TEST(Glossmeter, DistinctnessOfImageOfGrooves) {
     EXPECT_EQ(read_doi(flat(), {0.14, 0.14}, 4000).doi->doi[0].value, 100);
-    SurfaceSettings settings;
-    settings.kind = "vgroove";
-    settings.size = 64;
-    settings.tilt_deg = 0.08;
-    asperity::Run run(1);
-    const Heightfield grooves = make_surface(settings, run);
-    const DoiReading r = *read_doi(grooves, {0.2, 0.2}, 400000).doi;
+    const DoiReading r = *read_doi(grooves(0.08), {0.2, 0.2}, 400000).doi;
     EXPECT_GT(r.doi[0].error, 0);
     EXPECT_LT(r.doi[0].error, 1);
     EXPECT_NEAR(r.doi[0].value, 25, 4 * r.doi[0].error);
     // Tilted by 0.15 all light goes to the receptors aside
-    settings.tilt_deg = 0.15;
-    const GlossReport aside = read_doi(make_surface(settings, run), {0.14, 0.14}, 4000);
+    const GlossReport aside = read_doi(grooves(0.15), {0.14, 0.14}, 4000);
     EXPECT_TRUE(aside.doi->doi.empty());
     EXPECT_NE(aside.notes.back().find("no DOI"), std::string::npos);
     EXPECT_FALSE(read(flat()).doi);
@@ -267,22 +265,18 @@ TEST(Glossmeter, GivesTheSameBitsForAnyNumberOfThreads) {
 // Grooves that tilt every facet by 20 degrees along x send nothing into the receptor from the
 // azimuth 0; turned by 90 degrees, across the plane, neither. A tilt of 0.5 degrees stays inside.
 TEST(Glossmeter, KnowsWhereTheInstrumentStands) {
-    SurfaceSettings settings;
-    settings.kind = "vgroove";
-    settings.size = 64;
-    settings.tilt_deg = 0.7;
+    const Heightfield surface = grooves(0.7);
     asperity::Run run(1);
-    const Heightfield grooves = make_surface(settings, run);
     GlossSettings gloss;
     gloss.angles_deg = {20};
     gloss.run.rays = 20000;
     // In the plane light goes 1.4 degrees aside and 0.9 are received; across, 1.4 cos 20 of 1.8
-    EXPECT_NEAR(measure_gloss(grooves, {}, gloss, run).readings[0].gloss[0].value, 0, 1e-9);
-    EXPECT_GT(measure_gloss(grooves, {}, gloss, run).readings[0].haze[0].value, 1000);
+    EXPECT_NEAR(measure_gloss(surface, {}, gloss, run).readings[0].gloss[0].value, 0, 1e-9);
+    EXPECT_GT(measure_gloss(surface, {}, gloss, run).readings[0].haze[0].value, 1000);
     gloss.azimuth_deg = 90;
-    EXPECT_GT(measure_gloss(grooves, {}, gloss, run).readings[0].gloss[0].value, 1000);
+    EXPECT_GT(measure_gloss(surface, {}, gloss, run).readings[0].gloss[0].value, 1000);
     gloss.all_azimuths = true;
-    const double all = measure_gloss(grooves, {}, gloss, run).readings[0].gloss[0].value;
+    const double all = measure_gloss(surface, {}, gloss, run).readings[0].gloss[0].value;
     EXPECT_GT(all, 300);
     EXPECT_LT(all, 1900);
 }

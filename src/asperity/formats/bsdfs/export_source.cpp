@@ -4,6 +4,7 @@
 #include <asperity/core/parse_number.h>
 #include <asperity/core/version.h>
 #include <asperity/detector/illumination.h>
+#include <asperity/formats/atomic_file.h>
 #include <asperity/formats/bsdfs/export_source.h>
 #include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/experiment_text.h>
@@ -71,10 +72,6 @@ class IsotropicMean final : public Bsdf {
     int azimuths_;
 };
 
-void check(const Run& run) {
-    if (run.stop_requested()) throw Error(ErrorCode::Stopped, "stopped, nothing is written");
-}
-
 class UntilStopped final : public Bsdf {
   public:
     UntilStopped(std::shared_ptr<const Bsdf> bsdf, const Run& run)
@@ -87,11 +84,11 @@ class UntilStopped final : public Bsdf {
     bool bilateral() const override { return bsdf_->bilateral(); }
     std::vector<double> incident_angles() const override { return bsdf_->incident_angles(); }
     void eval(Vec3 wi, Vec3 wo, std::span<double> f) const override {
-        check(run_);
+        check_stop(&run_);
         bsdf_->eval(wi, wo, f);
     }
     double eval_pdf(Vec3 wi, Vec3 wo, std::span<double> f) const override {
-        check(run_);
+        check_stop(&run_);
         return bsdf_->eval_pdf(wi, wo, f);
     }
     std::optional<BsdfSample> sample(Vec3 wi, double u1, double u2) const override {
@@ -99,7 +96,7 @@ class UntilStopped final : public Bsdf {
     }
     double pdf(Vec3 wi, Vec3 wo) const override { return bsdf_->pdf(wi, wo); }
     void albedo(Vec3 wi, std::span<double> a) const override {
-        check(run_);
+        check_stop(&run_);
         bsdf_->albedo(wi, a);
     }
     std::optional<double> normal_density(Vec3 wm) const override {
@@ -160,7 +157,7 @@ void ExportSource::take_angles() {
 }
 
 void ExportSource::check_stopped() const {
-    if (run_) check(*run_);
+    check_stop(run_);
 }
 
 const Bsdf& ExportSource::bsdf() const {

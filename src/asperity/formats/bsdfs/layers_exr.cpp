@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/error.h>
 #include <asperity/core/version.h>
+#include <asperity/formats/atomic_file.h>
 #include <asperity/formats/bsdfs/bsdf_format.h>
 #include <asperity/formats/bsdfs/layers_exr.h>
 #include <asperity/formats/exr/exr_stream.h>
@@ -49,12 +50,6 @@ struct ChannelNames {
     }
 };
 
-/// Throws where `until` is asked to stop.
-void check(const Run* until) {
-    if (until && until->stop_requested())
-        throw Error(ErrorCode::Stopped, "stopped, nothing is written");
-}
-
 /// One channel of a part: its name and its values, row by row.
 struct Plane {
     std::string name;
@@ -87,7 +82,7 @@ std::vector<Plane> planes_of(const Measurement& m, const Layer& layer, const Run
     const int cells = m.detector.cells(), columns = m.detector.columns();
     std::vector<Plane> planes;
     const auto add = [&](auto&& of_cell) {
-        check(until);
+        check_stop(until);
         planes.push_back(make_plane(names[planes.size()], cells, of_cell));
     };
     for (int c = 0; c < m.channels(); ++c) {
@@ -190,7 +185,7 @@ void write_part(Imf::MultiPartOutputFile& file, int part, const Measurement& m, 
     // As many rows as are compressed together
     constexpr int kRows = 16;
     for (int row = 0; row < m.detector.rows(); row += kRows) {
-        check(until);
+        check_stop(until);
         output.writePixels(std::min(kRows, m.detector.rows() - row));
     }
 }
