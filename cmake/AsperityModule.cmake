@@ -16,6 +16,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LES
     target_compile_options(asperity_flags INTERFACE -Wno-restrict)
 endif()
 target_compile_definitions(asperity_flags INTERFACE _GLIBCXX_ASSERTIONS)
+if(ASPERITY_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    # It tells sources from headers by what it was called with.
+    target_compile_options(asperity_flags INTERFACE -Wno-subobject-linkage)
+endif()
 if(ASPERITY_WARNINGS_AS_ERRORS)
     target_compile_options(asperity_flags INTERFACE -Werror)
 endif()
@@ -102,6 +106,16 @@ function(asperity_module name)
     endif()
 endfunction()
 
+# asperity_rows(TARGET ...): each file is a row, a format or a verb, with the same names inside; none can be
+# compiled together with another one (ASPERITY_UNITY).
+function(asperity_rows)
+    foreach(target IN LISTS ARGN)
+        if(TARGET ${target})
+            set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
+        endif()
+    endforeach()
+endfunction()
+
 # asperity_vectors(NAME KERNELS file ...): these files of the module are kernels written with
 # Highway, for AVX-512, AVX2, SSE4 and, for all other processors, plain C++; with GCC before 12.3
 # Highway would take a narrower kind of the latter, for a compiler bug that a test of ours would show
@@ -115,7 +129,8 @@ function(asperity_vectors name)
     target_link_libraries(asperity_${name} PRIVATE hwy)
     target_compile_definitions(asperity_${name} PRIVATE
         HWY_BROKEN_EMU128=0 "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL)")
-    set_source_files_properties(${V_KERNELS} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+    set_source_files_properties(${V_KERNELS} PROPERTIES SKIP_PRECOMPILE_HEADERS ON
+        SKIP_UNITY_BUILD_INCLUSION ON)
     if(ASPERITY_SANITIZE)
         set_source_files_properties(${V_KERNELS} PROPERTIES COMPILE_OPTIONS "-fno-sanitize=all;-O2")
     endif()

@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kDelay = 3000;  // milliseconds
 constexpr std::uint64_t kLongestCopy = 1 << 20;
-constexpr const char* kSection = "recovery";
+constexpr const char* kRecoverySection = "recovery";
 
 std::string file_name(const QString& path) {
     return QFile::encodeName(path).toStdString();
@@ -39,7 +39,7 @@ std::unique_ptr<QLockFile> lock_of(const QString& copy) {
 
 /// A session, and a section of our own for where it was saved.
 std::string copy_text(const Document& document) {
-    return session_text(document.settings()) + "\n[" + kSection + "]\n" +
+    return session_text(document.settings()) + "\n[" + kRecoverySection + "]\n" +
            setting_line("path", document.path().toStdString());
 }
 
@@ -50,7 +50,7 @@ std::optional<Recovery::Lost> read_copy(const QFileInfo& file) {
         Recovery::Lost lost{
             session_from_text(text, name), {}, file.lastModified(), file.filePath()};
         for (const Setting& setting : parse_settings(text, name))
-            if (setting.section == kSection && setting.key == "path")
+            if (setting.section == kRecoverySection && setting.key == "path")
                 lost.path = QString::fromStdString(setting.value);
         return lost;
     } catch (const Error&) {

@@ -10,14 +10,14 @@ namespace asperity::studio {
 
 namespace {
 
-using Pixel = SurfaceBody::Pixel;
+using BodyPixel = SurfaceBody::Pixel;
 
-constexpr Pixel kSelected = {255, 245, 190};
+constexpr BodyPixel kSelected = {255, 245, 190};
 constexpr float kSelectedShare = 0.85F;
 
 /// The dark round the scene where no layer is shown, and below the horizon: black but for a breath
 /// of blue at the horizon. `direction` in the world, unit length.
-Pixel darkness(Vec3 direction) {
+BodyPixel darkness(Vec3 direction) {
     const auto glow = static_cast<float>(std::exp(-9 * std::abs(direction.y)));
     return {9 * glow, 11 * glow, 16 * glow};
 }
@@ -71,11 +71,11 @@ class SurfacePainting : public Painting {
         std::vector<std::int32_t> of_pixel;  ///< which of them; -1: none
 
         /// `behind` lies at that distance from the eye; lobes let some of it through.
-        Pixel over(std::size_t pixel, double distance, const Pixel& behind) const {
+        BodyPixel over(std::size_t pixel, double distance, const BodyPixel& behind) const {
             if (of_pixel.empty() || of_pixel[pixel] < 0) return behind;
             const auto at = static_cast<std::size_t>(of_pixel[pixel]);
             // From the farthest to the nearest; there are a handful
-            Pixel colour = behind;
+            BodyPixel colour = behind;
             double nearer_than = distance;
             while (true) {
                 std::size_t next = hits.size();
@@ -90,7 +90,7 @@ class SurfacePainting : public Painting {
                 const Hit& hit = hits[next][at];
                 const Lobe& lobe = *(*lobes)[next];
                 const auto share = static_cast<float>(lobe.opacity(rays[at], hit));
-                const Pixel own = lobe.colour(rays[at], hit);
+                const BodyPixel own = lobe.colour(rays[at], hit);
                 for (std::size_t c = 0; c < 3; ++c) colour[c] += share * (own[c] - colour[c]);
                 nearer_than = static_cast<double>(hit.distance);
             }
@@ -127,8 +127,8 @@ class SurfacePainting : public Painting {
                     rays.size(), [&](std::size_t k) { return to_world(frame, rays[k]); });
                 add_row(row, [&](std::size_t k) {
                     const bool on_surface = hits[k].part != PatchPart::None;
-                    const Pixel behind = on_surface ? colour_of(rays[k], hits[k])
-                                                    : surroundings(to_world(frame, rays[k]));
+                    const BodyPixel behind = on_surface ? colour_of(rays[k], hits[k])
+                                                        : surroundings(to_world(frame, rays[k]));
                     const double distance = on_surface ? frame.scale * hits[k].distance : kFarAway;
                     return lobe.over(k, distance, behind);
                 });
@@ -151,8 +151,8 @@ class SurfacePainting : public Painting {
         return !run.stop_requested();
     }
 
-    Pixel colour_of(const WorldRay& ray, const PatchHit& hit) const {
-        Pixel colour = body_->colour(ray, hit, picture_.shading, picture_.metal);
+    BodyPixel colour_of(const WorldRay& ray, const PatchHit& hit) const {
+        BodyPixel colour = body_->colour(ray, hit, picture_.shading, picture_.metal);
         if (hit.part == PatchPart::Facet && picture_.selected && !picture_.selected->empty() &&
             picture_.selected->contains({hit.i, hit.j, hit.triangle}))
             for (std::size_t c = 0; c < 3; ++c)
@@ -161,7 +161,7 @@ class SurfacePainting : public Painting {
     }
 
     /// What a ray of the world sees that misses the surface.
-    Pixel surroundings(const WorldRay& ray) const {
+    BodyPixel surroundings(const WorldRay& ray) const {
         const std::optional<Vec3> direction = dome_direction(ray);
         if (!direction) return darkness(ray.direction);
         if (!dome_ || direction->y < 0) return darkness(*direction);
@@ -172,11 +172,11 @@ class SurfacePainting : public Painting {
     template <class Sample>
     void add_row(int row, const Sample& sample) {
         const auto width = static_cast<std::size_t>(image_.width());
-        Pixel* sums = sums_.data() + static_cast<std::size_t>(row) * width;
+        BodyPixel* sums = sums_.data() + static_cast<std::size_t>(row) * width;
         auto* line = reinterpret_cast<QRgb*>(bits_ + row * image_.bytesPerLine());
         const float share = 1.0F / static_cast<float>(passes_ + 1);
         for (std::size_t k = 0; k < width; ++k) {
-            const Pixel colour = sample(k);
+            const BodyPixel colour = sample(k);
             for (std::size_t c = 0; c < 3; ++c) sums[k][c] += colour[c];
             const auto level = [&](std::size_t c) {
                 return static_cast<int>(sums[k][c] * share + 0.5F);
@@ -188,7 +188,7 @@ class SurfacePainting : public Painting {
     const SurfacePicture picture_;
     const Camera camera_;
     QImage image_;
-    std::vector<Pixel> sums_;
+    std::vector<BodyPixel> sums_;
     int passes_ = 0;
     const SurfaceBody* body_ = nullptr;
     const DomePicture* dome_ = nullptr;

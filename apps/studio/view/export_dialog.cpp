@@ -3,6 +3,7 @@
 
 #include "../model/words.h"
 #include "file_questions.h"
+#include "rows.h"
 #include "section.h"
 #include "setting_line.h"
 
@@ -19,11 +20,6 @@
 namespace asperity::studio {
 
 namespace {
-
-QString heading(const QString& text) {
-    return QString("<p style='margin-top:8px; margin-bottom:2px'><b>%1</b></p>")
-        .arg(text.toHtmlEscaped());
-}
 
 QString capital(const QString& sentence) {
     return sentence.left(1).toUpper() + sentence.mid(1);

@@ -19,4 +19,9 @@ void add_row(QFormLayout& rows, const QString& label, QWidget* field, const QStr
     for (QWidget* part : field->findChildren<QWidget*>()) part->setToolTip(tooltip);
 }
 
+QString heading(const QString& text) {
+    return QString("<p style='margin-top:8px; margin-bottom:2px'><b>%1</b></p>")
+        .arg(text.toHtmlEscaped());
+}
+
 }  // namespace asperity::studio

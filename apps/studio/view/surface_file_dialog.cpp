@@ -2,6 +2,7 @@
 #include "surface_file_dialog.h"
 
 #include "../model/words.h"
+#include "rows.h"
 
 #include <asperity/core/length.h>
 
@@ -17,11 +18,6 @@
 namespace asperity::studio {
 
 namespace {
-
-QString heading(const QString& text) {
-    return QString("<p style='margin-top:8px; margin-bottom:2px'><b>%1</b></p>")
-        .arg(text.toHtmlEscaped());
-}
 
 /// "a; b; c" as lines.
 QString lines_of(const std::string& sentences) {

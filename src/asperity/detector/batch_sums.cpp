@@ -2,6 +2,7 @@
 #include <asperity/detector/batch_sums.h>
 
 #include <asperity/core/energy.h>
+#include <asperity/core/index.h>
 
 #include <array>
 #include <utility>
@@ -9,10 +10,6 @@
 namespace asperity {
 
 namespace {
-
-std::size_t index(int a) {
-    return static_cast<std::size_t>(a);
-}
 
 /// Cells are fetched so many paths ahead.
 constexpr std::size_t kAhead = 48;

@@ -16,6 +16,7 @@ namespace asperity {
 namespace {
 
 using test::expect_same_bits;
+using test::measured;
 
 /// Batches of unequal sizes, in gold.
 Experiment experiment() {
@@ -24,12 +25,6 @@ Experiment experiment() {
     e.optics = test::gold_like();
     e.run.rays = 20005;
     return e;
-}
-
-Measurement measured(const Heightfield& surface, const Experiment& e, MeasureScope scope = {},
-                     int threads = 2) {
-    asperity::Run run(threads);
-    return measure(surface, e, run, {}, std::move(scope));
 }
 
 /// The same, going on until the albedo is so much better known than after one round.

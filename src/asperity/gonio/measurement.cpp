@@ -2,16 +2,11 @@
 #include <asperity/gonio/measurement.h>
 
 #include <asperity/core/energy.h>
+#include <asperity/core/index.h>
 
 #include <algorithm>
 
 namespace asperity {
-
-namespace {
-std::size_t index(int a) {
-    return static_cast<std::size_t>(a);
-}
-}  // namespace
 
 int Measurement::orders() const {
     return std::min(experiment.detector.orders, experiment.run.bounces);

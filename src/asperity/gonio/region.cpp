@@ -3,6 +3,7 @@
 
 #include <asperity/core/energy.h>
 #include <asperity/core/error.h>
+#include <asperity/core/index.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,10 +18,6 @@ namespace {
 constexpr double kFewRays = 10;
 
 using Groups = std::array<double, GroupSums::kGroups>;
-
-std::size_t index(int a) {
-    return static_cast<std::size_t>(a);
-}
 
 /// What cells of a block hold, and what their errors would be if they knew nothing of each other.
 struct Part {

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace asperity::test {
 
 inline Heightfield noise(int n, double height, std::uint64_t seed = 1) {
@@ -33,6 +35,13 @@ inline Experiment small_experiment() {
 inline Measurement measured(const Heightfield& s, const Experiment& e, int threads = 2) {
     asperity::Run run(threads);
     return measure(s, e, run);
+}
+
+/// A part of it, or one that goes on.
+inline Measurement measured(const Heightfield& s, const Experiment& e, MeasureScope scope,
+                            int threads = 2) {
+    asperity::Run run(threads);
+    return measure(s, e, run, {}, std::move(scope));
 }
 
 inline void expect_same_bits(const Layer& a, const Layer& b) {

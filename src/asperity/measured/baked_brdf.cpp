@@ -10,7 +10,7 @@ namespace asperity {
 namespace {
 
 /// Share of the samples drawn from a cosine, so that no direction with light is left out.
-constexpr double kCosineShare = 0.1;
+constexpr double kBakedCosineShare = 0.1;
 
 /// The whole part of x >= 0, at most `most`.
 int whole(double x, int most) {
@@ -186,7 +186,7 @@ double BakedBrdf::eval_pdf(Vec3 wi, Vec3 wo, std::span<double> f) const {
         return 0;
     }
     const double density = tables_->look(wi, wo, f.data());
-    return kCosineShare * wo.z / kPi + (1 - kCosineShare) * density;
+    return kBakedCosineShare * wo.z / kPi + (1 - kBakedCosineShare) * density;
 }
 
 void BakedBrdf::eval(Vec3 wi, Vec3 wo, std::span<double> f) const {
@@ -200,15 +200,15 @@ double BakedBrdf::pdf(Vec3 wi, Vec3 wo) const {
 
 std::optional<BsdfSample> BakedBrdf::sample(Vec3 wi, double u1, double u2) const {
     if (wi.z <= 0) return std::nullopt;
-    if (u1 < kCosineShare) {
-        const Vec3 wo = sample_cosine(u1 / kCosineShare, u2);
+    if (u1 < kBakedCosineShare) {
+        const Vec3 wo = sample_cosine(u1 / kBakedCosineShare, u2);
         return BsdfSample{wo, pdf(wi, wo)};
     }
-    const double u = (u1 - kCosineShare) / (1 - kCosineShare);
+    const double u = (u1 - kBakedCosineShare) / (1 - kBakedCosineShare);
     BsdfSample drawn =
         isotropic_ ? tables_->draw<true>(wi, u, u2) : tables_->draw<false>(wi, u, u2);
     if (drawn.wo.z <= 0) return std::nullopt;
-    drawn.pdf = kCosineShare * drawn.wo.z / kPi + (1 - kCosineShare) * drawn.pdf;
+    drawn.pdf = kBakedCosineShare * drawn.wo.z / kPi + (1 - kBakedCosineShare) * drawn.pdf;
     return drawn;
 }
 

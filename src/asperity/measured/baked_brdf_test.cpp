@@ -79,12 +79,12 @@ TEST(HalfVectorMapTest, ThereAndBack) {
     EXPECT_NEAR(map.density(place.x, place.y, h, wi), place.density, 1e-13 * place.density);
 }
 
-struct Case {
+struct BakedCase {
     const char* spec;
     double theta_deg;
 };
 
-class BakedSamplingTest : public testing::TestWithParam<Case> {};
+class BakedSamplingTest : public testing::TestWithParam<BakedCase> {};
 
 TEST_P(BakedSamplingTest, SamplesFollowTheirDensity) {
     const auto baked = bake(GetParam().spec, kCoarse);
@@ -104,10 +104,12 @@ TEST_P(BakedSamplingTest, SamplesFollowTheirDensity) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, BakedSamplingTest,
-                         testing::Values(Case{"lambert:albedo=0.7", 30}, Case{"ggx:alpha=0.5", 0},
-                                         Case{"ggx:alpha=0.2", 60}, Case{"ggx:alpha=0.8", 84},
-                                         Case{"cook-torrance:roughness=0.6,metallic=0", 70},
-                                         Case{"ggx:alpha=0.5,alpha_y=0.2", 50}));
+                         testing::Values(BakedCase{"lambert:albedo=0.7", 30},
+                                         BakedCase{"ggx:alpha=0.5", 0},
+                                         BakedCase{"ggx:alpha=0.2", 60},
+                                         BakedCase{"ggx:alpha=0.8", 84},
+                                         BakedCase{"cook-torrance:roughness=0.6,metallic=0", 70},
+                                         BakedCase{"ggx:alpha=0.5,alpha_y=0.2", 50}));
 
 class BakedAccuracyTest : public testing::TestWithParam<const char*> {};
 

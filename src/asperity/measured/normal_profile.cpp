@@ -36,7 +36,6 @@ double NormalProfile::theta_edge(int t) const {
 
 NormalProfile normal_profile(const Heightfield& surface, int bins, const Run& run) {
     check_bins(bins);
-    constexpr int kRowsPerBlock = 8;
     std::vector<std::uint64_t> counts(static_cast<std::size_t>(bins));
     std::mutex mutex;
     for_blocks(surface.cells_y(), kRowsPerBlock, run, [&](int first, int last) {

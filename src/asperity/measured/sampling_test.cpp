@@ -9,13 +9,13 @@
 namespace asperity {
 namespace {
 
-struct Case {
+struct SampledBrdf {
     const char* spec;
     double theta_deg, phi_deg;
 };
 
 // Smooth and rough, isotropic and not, along the normal, oblique and grazing.
-constexpr Case kCases[] = {
+constexpr SampledBrdf kCases[] = {
     {"lambert:albedo=0.7", 30, 10},
     {"cook-torrance:roughness=0.5,metallic=1", 40, 200},
     {"cook-torrance:roughness=0.7,metallic=0,albedo=0.8,k=ibl", 70, 0},
@@ -32,7 +32,7 @@ constexpr Case kCases[] = {
 // Sidak: all cases together fail by chance once in a hundred.
 const double kSignificance = 1 - std::pow(1 - 0.01, 1.0 / std::size(kCases));
 
-class SamplingTest : public testing::TestWithParam<Case> {};
+class SamplingTest : public testing::TestWithParam<SampledBrdf> {};
 
 TEST_P(SamplingTest, SamplesFollowTheirDensity) {
     const auto brdf = parse_brdf_spec(GetParam().spec);

@@ -38,19 +38,21 @@ TEST(SettingsText, LinesKnowTheirPlace) {
 }
 
 TEST(SettingsText, GroupsAreHeadings) {
-    struct Lamp {
+    struct Lantern {
         int bulbs = 3;
         double power = 40;
         bool on = true;
     };
-    ParamTable<Lamp> table = {
-        field(&Lamp::bulbs, {.name = "bulbs", .group = "Lamp"}),
-        field(&Lamp::power, {.name = "power", .group = "Lamp"}),
-        field(&Lamp::on, {.name = "on", .group = "Wall"}),
+    ParamTable<Lantern> table = {
+        field(&Lantern::bulbs, {.name = "bulbs", .group = "Lantern"}),
+        field(&Lantern::power, {.name = "power", .group = "Lantern"}),
+        field(&Lantern::on, {.name = "on", .group = "Wall"}),
     };
-    table.push_back(field(&Lamp::on, {.name = "new", .group = "Wall", .written_where_used = true}));
-    table.back().unused = [](const Lamp& l) { return l.on ? "the lamp is on" : ""; };
-    EXPECT_EQ(settings_text(table, Lamp{}), "# Lamp\nbulbs = 3\npower = 40\n# Wall\non = true\n");
+    table.push_back(
+        field(&Lantern::on, {.name = "new", .group = "Wall", .written_where_used = true}));
+    table.back().unused = [](const Lantern& l) { return l.on ? "the lamp is on" : ""; };
+    EXPECT_EQ(settings_text(table, Lantern{}),
+              "# Lantern\nbulbs = 3\npower = 40\n# Wall\non = true\n");
 }
 
 }  // namespace

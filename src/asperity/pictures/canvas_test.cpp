@@ -10,7 +10,8 @@
 namespace asperity::io {
 namespace {
 
-constexpr Colour kBlack = {0, 0, 0}, kWhite = {1, 1, 1};
+using test::kBlack;
+using test::kWhite;
 
 /// Whole light on the canvas, in pixels of white.
 double light(const Canvas& canvas) {

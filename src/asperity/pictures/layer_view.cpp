@@ -2,6 +2,7 @@
 #include <asperity/pictures/layer_view.h>
 
 #include <asperity/core/error.h>
+#include <asperity/core/index.h>
 #include <asperity/core/parallel.h>
 #include <asperity/core/run.h>
 #include <fmt/format.h>
@@ -14,10 +15,6 @@
 namespace asperity::io {
 
 namespace {
-
-std::size_t index(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 /// Mean over the channels asked for.
 template <typename OfChannel>

@@ -15,6 +15,8 @@ namespace asperity::io::test {
 
 using namespace asperity::test;
 
+inline constexpr Colour kBlack = {0, 0, 0}, kWhite = {1, 1, 1};
+
 /// A PNG as libpng reads it.
 struct ReadPng {
     int width = 0, height = 0;

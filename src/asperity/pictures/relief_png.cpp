@@ -15,7 +15,7 @@ namespace asperity::io {
 
 namespace {
 
-constexpr int kMargin = 28, kFoot = 76, kLeastWidth = 420;
+constexpr int kReliefMargin = 28, kReliefFoot = 76, kLeastWidth = 420;
 
 std::string length(const Heightfield& surface, double value) {
     return surface.unit == "m" ? length_text(value)
@@ -72,27 +72,28 @@ void write_relief_png(const Heightfield& surface, const std::string& path, bool 
     const int width = std::max(relief.width(), kLeastWidth);
     const std::vector<std::string> title =
         wrapped(surface.name.empty() ? "surface" : surface.name, theme.title, width);
-    const int head = kMargin + static_cast<int>(title.size()) * 26 + 30;
-    Canvas canvas(width + 2 * kMargin, head + relief.height() + kFoot, theme.background);
-    double y = kMargin + 16.0;
+    const int head = kReliefMargin + static_cast<int>(title.size()) * 26 + 30;
+    Canvas canvas(width + 2 * kReliefMargin, head + relief.height() + kReliefFoot,
+                  theme.background);
+    double y = kReliefMargin + 16.0;
     for (const std::string& line : title) {
-        draw_text(canvas, {1.0 * kMargin, y}, line, {theme.title, theme.text, 1.05});
+        draw_text(canvas, {1.0 * kReliefMargin, y}, line, {theme.title, theme.text, 1.05});
         y += 26;
     }
-    draw_text(canvas, {1.0 * kMargin, y},
+    draw_text(canvas, {1.0 * kReliefMargin, y},
               fmt::format("{} × {} samples · {} × {}", surface.nx, surface.ny,
                           length(surface, surface.dx * surface.cells_x()),
                           length(surface, surface.dy * surface.cells_y())),
               {theme.body, theme.faint_text});
     for (int row = 0; row < relief.height(); ++row)
         for (int x = 0; x < relief.width(); ++x)
-            canvas.set(kMargin + x, head + row, relief.get(x, row));
-    canvas.frame({kMargin, head, relief.width(), relief.height()}, theme.frame);
+            canvas.set(kReliefMargin + x, head + row, relief.get(x, row));
+    canvas.frame({kReliefMargin, head, relief.width(), relief.height()}, theme.frame);
     const double foot = head + relief.height() + 20.0;
-    draw_scale_bar(canvas, {1.0 * kMargin, foot}, surface, relief.width(), theme);
+    draw_scale_bar(canvas, {1.0 * kReliefMargin, foot}, surface, relief.width(), theme);
     const int key = std::min(320, width / 2);
-    draw_key(canvas, {kMargin + width - key, static_cast<int>(foot) - 4, key, 14}, surface, shading,
-             theme);
+    draw_key(canvas, {kReliefMargin + width - key, static_cast<int>(foot) - 4, key, 14}, surface,
+             shading, theme);
     write_png(canvas, path);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/pictures/stroke_font.h>
 
+#include <asperity/pictures/picture_test_data.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +10,8 @@
 namespace asperity::io {
 namespace {
 
-constexpr Colour kBlack = {0, 0, 0}, kWhite = {1, 1, 1};
+using test::kBlack;
+using test::kWhite;
 
 /// The smallest rectangle that holds all that is not black.
 Rect inked(const Canvas& canvas) {

@@ -3,6 +3,7 @@
 
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
+#include <asperity/core/index.h>
 #include <asperity/measured/compare.h>
 #include <fmt/format.h>
 
@@ -18,10 +19,6 @@ constexpr int kModelResolution = 180;  ///< columns where no measurement gives a
 constexpr double kEnoughNoise = 0.03;  ///< that needs no more averaging
 constexpr double kHelps = 0.8;         ///< noise that averaging twice as wide must leave at most
 constexpr double kMostColumns = 8;
-
-std::size_t index(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 /// Columns that a cell is averaged over, in this row: cells as wide as at the horizon, `columns` of
 /// those.

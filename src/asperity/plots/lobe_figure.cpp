@@ -16,11 +16,11 @@ namespace asperity::plots::detail {
 
 namespace {
 
-constexpr double kEnoughNoise = 0.015;  ///< that needs no more averaging
-constexpr double kHelps = 0.85;         ///< noise that averaging twice as wide must leave at most
-constexpr double kShown = 0.05;         ///< of the largest value: darker parts ask for nothing
-constexpr double kWidestStrip = 6;      ///< to either side of the plane [degrees]
-constexpr double kModelStep = 0.25;     ///< degrees
+constexpr double kEnoughLobeNoise = 0.015;  ///< that needs no more averaging
+constexpr double kHelpsLobe = 0.85;  ///< noise that averaging twice as wide must leave at most
+constexpr double kShown = 0.05;      ///< of the largest value: darker parts ask for nothing
+constexpr double kWidestStrip = 6;   ///< to either side of the plane [degrees]
+constexpr double kLobeStep = 0.25;   ///< degrees
 
 /// How much values that are seen are off, as a share: by their standard errors, or by how they
 /// differ from the middle of their neighbours, whichever is more. What the facets of a small
@@ -55,9 +55,9 @@ double columns_for(const std::vector<LitSubject>& lit, const PlotSettings& setti
             return noise_of(lobe_slice(m, *one.layer, channel, {radians(settings.plane), half}));
         };
         double noise = noise_at(columns);
-        while (noise > kEnoughNoise && 2 * columns <= widest) {
+        while (noise > kEnoughLobeNoise && 2 * columns <= widest) {
             const double wider = noise_at(2 * columns);
-            if (wider > kHelps * noise) break;
+            if (wider > kHelpsLobe * noise) break;
             noise = wider;
             columns *= 2;
         }
@@ -85,9 +85,9 @@ PlotCurve exact_curve(const LitSubject& one, int channel, double plane) {
     std::array<double, kMaxBsdfChannels> f{};
     const std::span<double> channels(f.data(), static_cast<std::size_t>(model.channels()));
     std::vector<double> x, y;
-    const int half = static_cast<int>(90 / kModelStep) - 1;
+    const int half = static_cast<int>(90 / kLobeStep) - 1;
     for (int k = -half; k <= half; ++k) {
-        const double theta = kModelStep * k;
+        const double theta = kLobeStep * k;
         const double azimuth = one.light.phi_i + plane + (theta < 0 ? 0 : kPi);
         model.eval(wi, from_spherical(radians(std::abs(theta)), azimuth), channels);
         double sum = 0;

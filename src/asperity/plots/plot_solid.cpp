@@ -2,6 +2,7 @@
 #include <asperity/plots/plot_solid.h>
 
 #include <asperity/core/directions.h>
+#include <asperity/core/index.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,10 +16,6 @@ namespace {
 constexpr double kPalest = 0.75;         ///< share of grey where nothing is known
 constexpr double kWhollyUnsure = 0.5;    ///< relative standard error that is as pale as can be
 constexpr double kOpacityBefore = 0.68;  ///< of a solid before another
-
-std::size_t index(int k) {
-    return static_cast<std::size_t>(k);
-}
 
 /// Points of a solid: rows of the detector, a pole above and a rim at the horizon.
 class Grid {

@@ -3,6 +3,7 @@
 
 #include <asperity/core/directions.h>
 #include <asperity/core/random.h>
+#include <asperity/render/render_testing.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,11 +11,7 @@
 namespace asperity {
 namespace {
 
-void expect_near(Vec3 a, Vec3 b, double tolerance = 1e-12) {
-    EXPECT_NEAR(a.x, b.x, tolerance);
-    EXPECT_NEAR(a.y, b.y, tolerance);
-    EXPECT_NEAR(a.z, b.z, tolerance);
-}
+using test::expect_near;
 
 void expect_valid(const Camera& camera) {
     EXPECT_NEAR(length(camera.forward), 1, 1e-12);

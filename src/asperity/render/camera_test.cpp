@@ -2,6 +2,7 @@
 #include <asperity/render/camera.h>
 
 #include <asperity/core/error.h>
+#include <asperity/render/render_testing.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,11 +11,7 @@
 namespace asperity {
 namespace {
 
-void expect_near(Vec3 a, Vec3 b, double tolerance = 1e-12) {
-    EXPECT_NEAR(a.x, b.x, tolerance);
-    EXPECT_NEAR(a.y, b.y, tolerance);
-    EXPECT_NEAR(a.z, b.z, tolerance);
-}
+using test::expect_near;
 
 TEST(Camera, LooksAtItsTargetWithUpOrthogonal) {
     const Camera camera = look_at({1, 2, 3}, {1, -2, 0}, 40);

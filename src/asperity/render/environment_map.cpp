@@ -17,8 +17,6 @@ namespace asperity {
 
 namespace {
 
-constexpr double kFarAway = std::numeric_limits<double>::infinity();
-
 /// A part of a whole, and a place in it, 0 .. 1.
 struct Choice {
     std::size_t part = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
+#include <asperity/core/finite.h>
 #include <asperity/render/light.h>
 
 #include <fmt/format.h>
@@ -11,12 +12,6 @@
 namespace asperity {
 
 namespace {
-
-constexpr double kFarAway = std::numeric_limits<double>::infinity();
-
-bool is_finite(Vec3 v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 [[noreturn]] void refuse(const char* setting, const std::string& why) {
     throw Error(ErrorCode::Usage, why, setting);
@@ -59,8 +54,8 @@ class PointLight final : public Light {
 
     double weight() const override {
         // A model reaches out to 1, so a light at its middle is not infinitely near to it.
-        constexpr double kNearest = 0.1;
-        const double distance = std::max(length(settings_.position), kNearest);
+        constexpr double kLeast = 0.1;
+        const double distance = std::max(length(settings_.position), kLeast);
         return luminance(intensity_) / (distance * distance);
     }
 

@@ -4,11 +4,15 @@
 #include <asperity/core/vec.h>
 #include <asperity/render/rgb.h>
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 
 namespace asperity {
+
+/// The distance of lights that are no place.
+inline constexpr double kFarAway = std::numeric_limits<double>::infinity();
 
 /// Light that reaches a point from one direction.
 struct LightSample {

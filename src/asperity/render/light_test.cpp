@@ -2,6 +2,7 @@
 #include <asperity/core/error.h>
 #include <asperity/render/light.h>
 #include <asperity/render/light_testing.h>
+#include <asperity/render/render_testing.h>
 
 #include <gtest/gtest.h>
 
@@ -10,8 +11,8 @@
 namespace asperity {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using test::kInfinity;
+using test::kNaN;
 
 /// The setting make_light complains of; empty when all is well.
 template <typename Settings>

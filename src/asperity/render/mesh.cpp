@@ -2,6 +2,7 @@
 #include <asperity/render/mesh.h>
 
 #include <asperity/core/error.h>
+#include <asperity/core/finite.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,10 +10,6 @@
 
 namespace asperity {
 namespace {
-
-bool is_finite(Vec3 v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 /// Calls visit(point) with every vertex in use, in the world, once for each triangle that uses it.
 template <typename Visit>

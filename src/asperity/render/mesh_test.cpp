@@ -13,7 +13,7 @@ namespace asperity {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 
 /// The cube -1 .. 1 with 8 vertices; the squares are cut along any diagonal.
 TriangleMesh cube() {
@@ -115,7 +115,7 @@ TEST(Mesh, CheckNamesWhatIsWrong) {
     EXPECT_EQ(fault([](Model&) {}), "");
     EXPECT_EQ(fault([](Model& m) { m.meshes[0].triangles[3][1] = 8; }),
               "mesh 0: triangle 3 refers to vertex 8, there are 8");
-    EXPECT_EQ(fault([](Model& m) { m.meshes[0].positions[5].y = kInfinity; }),
+    EXPECT_EQ(fault([](Model& m) { m.meshes[0].positions[5].y = kFloatInfinity; }),
               "mesh 0: vertex 5 is not finite");
     EXPECT_EQ(fault([](Model& m) { m.meshes[0].positions.push_back({kNan, 0, 0}); }), "");
     EXPECT_EQ(fault([](Model& m) { m.meshes[0].normals.resize(7); }),
@@ -251,7 +251,7 @@ TEST(Normals, FanOfManyCreasesTakesNoTime) {
 TEST(DropUndrawable, TakesOutWhatHasNoAreaOrIsNotFinite) {
     TriangleMesh mesh = cube();
     mesh.positions.push_back({kNan, 0, 0});
-    mesh.positions.push_back({0, kInfinity, 0});
+    mesh.positions.push_back({0, kFloatInfinity, 0});
     mesh.triangles.push_back({0, 1, 8});
     mesh.triangles.push_back({0, 9, 1});
     mesh.triangles.push_back({3, 3, 5});

@@ -6,6 +6,7 @@
 #include <asperity/render/environment_map.h>
 #include <asperity/render/light_testing.h>
 #include <asperity/render/perez_sky.h>
+#include <asperity/render/render_testing.h>
 #include <asperity/render/sky.h>
 #include <asperity/render/sun.h>
 
@@ -208,7 +209,7 @@ TEST(Sky, RefusesWhatIsNoSky) {
         }
         return std::string();
     };
-    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    using test::kNaN;
     EXPECT_EQ(complaint([](auto&) {}), "");
     EXPECT_EQ(complaint([](auto&) {}, 1), "height");
     EXPECT_EQ(complaint([](auto& s) { s.sun_elevation_deg = -1; }), "sun-elevation");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/render/tonemap.h>
 
+#include <asperity/render/render_testing.h>
+
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -8,8 +10,8 @@
 namespace asperity {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+using test::kInfinity;
+using test::kNaN;
 
 double shown(const ToneMapping& mapping, double radiance) {
     return apply(mapping, {0, radiance, 0}).g;

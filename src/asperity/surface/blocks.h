@@ -15,6 +15,9 @@ inline void throw_if_stopped(const Run& run) {
     if (!run.keep_going()) throw Error(ErrorCode::Stopped, "stopped");
 }
 
+/// Rows of a surface that a thread takes at a time: the stop is heard in between.
+inline constexpr int kRowsPerBlock = 16;
+
 /// Calls body(first, last) for [0, count) cut into blocks of `per_block`, on the threads of `run`.
 ///
 /// Throws Error(Stopped) before the next block once the user asked to stop.

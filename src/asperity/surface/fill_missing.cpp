@@ -15,8 +15,6 @@ namespace asperity {
 
 namespace {
 
-constexpr int kRowsPerBlock = 16;
-
 std::size_t index(const Topography& t, int i, int j) {
     return static_cast<std::size_t>(j) * static_cast<std::size_t>(t.nx) +
            static_cast<std::size_t>(i);

@@ -13,8 +13,6 @@ namespace asperity {
 
 namespace {
 
-constexpr int kRowsPerBlock = 16;
-
 using Complex = std::complex<double>;
 using Fft = Eigen::FFT<double>;
 

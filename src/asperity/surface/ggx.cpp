@@ -14,8 +14,6 @@ namespace asperity {
 
 namespace {
 
-constexpr int kRowsPerBlock = 32;
-
 /// Length r of the stretched slope below which a share u of the facets lies.
 double quantile(SlopeFamily family, double u) {
     if (family == SlopeFamily::Beckmann) return std::sqrt(-std::log1p(-u));

@@ -19,8 +19,6 @@ namespace asperity {
 
 namespace {
 
-constexpr int kRowsPerBlock = 64;
-
 void scale_heights(Heightfield& surface, double factor, const Run& run) {
     if (factor == 1) return;
     const auto nx = static_cast<std::size_t>(surface.nx);

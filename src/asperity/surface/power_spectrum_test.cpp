@@ -11,7 +11,7 @@
 namespace asperity {
 namespace {
 
-PowerSpectrumSettings gaussian(double lx, double ly, int n = 128) {
+PowerSpectrumSettings gaussian_spectrum(double lx, double ly, int n = 128) {
     PowerSpectrumSettings s;
     s.correlation_x = lx;
     s.correlation_y = ly;
@@ -24,7 +24,7 @@ PowerSpectrumSettings gaussian(double lx, double ly, int n = 128) {
 TEST(PowerSpectrum, GaussianNeighboursAreCorrelatedExactly) {
     const asperity::Run run(2);
     for (const double length : {0.3, 0.5, 1.0, 2.0, 4.0, 8.0}) {
-        const PowerSpectrum density(gaussian(length, 1.7 * length));
+        const PowerSpectrum density(gaussian_spectrum(length, 1.7 * length));
         const auto v = density.variances(run);
         const double variance = v.height + density(0, 0);
         const double ly = 1.7 * length;
@@ -36,7 +36,7 @@ TEST(PowerSpectrum, GaussianNeighboursAreCorrelatedExactly) {
 // At lag x the spectrum must sum to exp(-x^2/L^2) times the variance: its definition.
 TEST(PowerSpectrum, GaussianSumsToItsAutocorrelation) {
     const int n = 60;
-    const PowerSpectrum density(gaussian(3, 3, n));
+    const PowerSpectrum density(gaussian_spectrum(3, 3, n));
     for (const int lag : {0, 1, 3, 7}) {
         double at_lag = 0, at_zero = 0;
         for (int kx = 0; kx < n; ++kx)
@@ -49,7 +49,7 @@ TEST(PowerSpectrum, GaussianSumsToItsAutocorrelation) {
 }
 
 TEST(PowerSpectrum, PowerLawsFollowTheirFormula) {
-    PowerSpectrumSettings s = gaussian(5, 3, 64);
+    PowerSpectrumSettings s = gaussian_spectrum(5, 3, 64);
     s.ny = 50;
     s.aspect = 2;
     s.hurst = 0.7;
@@ -67,7 +67,7 @@ TEST(PowerSpectrum, VariancesAreTheSumsOverAllWaveVectors) {
     const asperity::Run run(3);
     for (const int nx : {11, 12})
         for (const int ny : {9, 14}) {
-            PowerSpectrumSettings s = gaussian(2, 3);
+            PowerSpectrumSettings s = gaussian_spectrum(2, 3);
             s.autocorrelation = Autocorrelation::SelfAffine;
             s.nx = nx;
             s.ny = ny;
@@ -95,8 +95,8 @@ TEST(MatchingCorrelation, AgreesWithTheClosedFormOfTheGaussian) {
     for (const double ratio : {0.25, 0.5, 0.9, 1.0, 1.5, 3.0}) {
         const double c = ratio * ratio * (1 - std::exp(-1.0 / 36));
         const double expected = 1 / std::sqrt(-std::log(1 - c));
-        EXPECT_NEAR(matching_correlation_y(gaussian(6, 6, 512), 0.3, 0.3 * ratio, run), expected,
-                    1e-5 * expected)
+        EXPECT_NEAR(matching_correlation_y(gaussian_spectrum(6, 6, 512), 0.3, 0.3 * ratio, run),
+                    expected, 1e-5 * expected)
             << ratio;
     }
 }
@@ -104,7 +104,7 @@ TEST(MatchingCorrelation, AgreesWithTheClosedFormOfTheGaussian) {
 TEST(MatchingCorrelation, MeetsTheRatioForPowerLawsAndOblongCells) {
     const asperity::Run run(2);
     for (const auto kind : {Autocorrelation::Exponential, Autocorrelation::SelfAffine}) {
-        PowerSpectrumSettings s = gaussian(8, 8, 200);
+        PowerSpectrumSettings s = gaussian_spectrum(8, 8, 200);
         s.autocorrelation = kind;
         s.aspect = 1.3;
         s.correlation_y = matching_correlation_y(s, 0.4, 0.25, run);
@@ -116,7 +116,7 @@ TEST(MatchingCorrelation, MeetsTheRatioForPowerLawsAndOblongCells) {
 TEST(MatchingCorrelation, RefusesARatioOutOfReach) {
     const asperity::Run run(2);
     try {
-        matching_correlation_y(gaussian(60, 60, 128), 0.5, 0.001, run);
+        matching_correlation_y(gaussian_spectrum(60, 60, 128), 0.5, 0.001, run);
         ADD_FAILURE() << "accepted";
     } catch (const Error& e) {
         EXPECT_EQ(e.code(), ErrorCode::Usage);

@@ -13,7 +13,6 @@ using Complex = std::complex<float>;
 using Fft = Eigen::FFT<float>;
 
 constexpr int kColumnsPerBlock = 8;  // of 8 bytes: one cache line of every row
-constexpr int kRowsPerBlock = 16;
 
 /// A transform of its own for each block of work: plans hold scratch memory, so threads cannot
 /// share.

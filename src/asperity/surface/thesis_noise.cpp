@@ -9,7 +9,6 @@ namespace asperity {
 namespace {
 
 constexpr std::uint32_t kThesisStream = 0x54485349;  // of the random numbers, "THSI"
-constexpr int kRowsPerBlock = 16;
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/directions.h>
 #include <asperity/tracing/launch.h>
+#include <asperity/tracing/test_tracers.h>
 
 #include <gtest/gtest.h>
 
@@ -11,13 +12,7 @@
 namespace asperity {
 namespace {
 
-Heightfield tile(int nx, int ny) {
-    Heightfield s;
-    s.nx = nx;
-    s.ny = ny;
-    s.heights.assign(static_cast<std::size_t>(nx * ny), 0.0f);
-    return s;
-}
+using test::level_tile;
 
 class LaunchOfEachPattern : public testing::TestWithParam<LaunchPattern> {};
 INSTANTIATE_TEST_SUITE_P(Patterns, LaunchOfEachPattern,
@@ -28,7 +23,7 @@ TEST_P(LaunchOfEachPattern, EveryPointOfTheTileIsEquallyLikely) {
     // One given ray of many batches: its place must be uniform over the tile, or the estimate would
     // be biased. Low discrepancy shifts by a random vector; strata by themselves are not uniform,
     // so there all rays of a batch are taken. Chi-square over 12 x 8 cells.
-    const Heightfield s = tile(12, 8);
+    const Heightfield s = level_tile(12, 8);
     std::vector<double> counts(96);
     double samples = 0;
     for (std::uint32_t batch = 0; batch < 6000; ++batch) {
@@ -49,7 +44,7 @@ TEST_P(LaunchOfEachPattern, EveryPointOfTheTileIsEquallyLikely) {
 
 TEST(Launch, StratifiedPutsOnePointIntoEveryStratum) {
     // 16 x 16 cells and 256 x 4 points: 4 points in every cell, each in a quarter of its own.
-    const Heightfield s = tile(16, 16);
+    const Heightfield s = level_tile(16, 16);
     const LaunchBatch b(s, 1, {1, 0, 0, false}, {LaunchPattern::Stratified, 1024, 1, 0, 0});
     std::set<std::pair<int, int>> strata;
     for (std::uint64_t k = 0; k < 1024; ++k) {
@@ -63,7 +58,7 @@ TEST(Launch, LatticeIsMoreEvenThanChance) {
     // Points in squares of a 16 x 16 board, 4096 points: 16 each on average; independent points
     // would scatter with variance 16, a lattice only by what its squares' sides cut: under a
     // quarter of that. Any number of points, also a prime one.
-    const Heightfield s = tile(16, 16);
+    const Heightfield s = level_tile(16, 16);
     for (const std::uint64_t n : {4096ULL, 4099ULL, 10007ULL}) {
         const LaunchBatch b(s, 1, {1, 0, 0, false}, {LaunchPattern::LowDiscrepancy, n, 1, 0, 0});
         std::vector<double> counts(256);
@@ -79,7 +74,7 @@ TEST(Launch, LatticeIsMoreEvenThanChance) {
 }
 
 TEST(Launch, RowsOfTheLatticeAreShiftedByTheGoldenRatio) {
-    const Heightfield s = tile(12, 8);
+    const Heightfield s = level_tile(12, 8);
     const LaunchBatch b(s, 1, {1, 0, 0, false}, {LaunchPattern::LowDiscrepancy, 600, 17, 2, 0});
     const double golden = (std::sqrt(5.0) - 1) / 2;
     ASSERT_EQ(b.rows(), 50u);
@@ -90,7 +85,7 @@ TEST(Launch, RowsOfTheLatticeAreShiftedByTheGoldenRatio) {
 }
 
 TEST(Launch, LightComesFromItsAzimuth) {
-    const Heightfield s = tile(4, 4);
+    const Heightfield s = level_tile(4, 4);
     const LaunchBatch b(s, 7, {1, radians(60), radians(90), false},
                         {LaunchPattern::Random, 4, 1, 0, 0});
     const Launch l = b.launch(0);
@@ -101,7 +96,7 @@ TEST(Launch, LightComesFromItsAzimuth) {
 }
 
 TEST(Launch, IsotropicLightComesFromAllAround) {
-    const Heightfield s = tile(4, 4);
+    const Heightfield s = level_tile(4, 4);
     const LaunchBatch b(s, 1, {1, 1, 0, true}, {LaunchPattern::LowDiscrepancy, 20000, 1, 0, 0});
     std::vector<double> counts(8);
     for (std::uint64_t k = 0; k < 20000; ++k) {

@@ -11,7 +11,7 @@
 namespace asperity {
 
 namespace {
-constexpr double kMostCells = 1 << 24;
+constexpr double kMostCellsAcross = 1 << 24;
 }
 
 void check_scale(const Heightfield& surface, double lowest, double highest,
@@ -23,19 +23,19 @@ void check_scale(const Heightfield& surface, double lowest, double highest,
                     surface.name);
     };
     const double cells = (highest - lowest) / std::min(surface.dx, surface.dy);
-    if (!(cells <= kMostCells))
+    if (!(cells <= kMostCellsAcross))
         refuse(
             fmt::format("they range over {:.3g} cells, more than {:.3g}; are heights and cells "
                         "in the same unit?",
-                        cells, kMostCells));
+                        cells, kMostCellsAcross));
     for (const double angle : theta) {
         const double way = cells * std::tan(angle);
-        if (!(way <= kMostCells))
+        if (!(way <= kMostCellsAcross))
             refuse(
                 fmt::format("light at {:.12g} degrees crosses {:.3g} cells while it sinks from "
                             "the highest point to the lowest, more than {:.3g}; are heights and "
                             "cells in the same unit, and the angle right?",
-                            degrees(angle), way, kMostCells));
+                            degrees(angle), way, kMostCellsAcross));
     }
 }
 

@@ -35,6 +35,15 @@ inline std::string name_of_case(const testing::TestParamInfo<Case>& info) {
     return info.param.name;
 }
 
+/// A level surface.
+inline Heightfield level_tile(int nx, int ny) {
+    Heightfield s;
+    s.nx = nx;
+    s.ny = ny;
+    s.heights.assign(static_cast<std::size_t>(nx * ny), 0.0f);
+    return s;
+}
+
 /// What two tracers made of the same rays.
 struct Agreement {
     int rays = 0;

@@ -9,7 +9,7 @@
 namespace asperity {
 namespace {
 
-double albedo_at(const Bsdf& brdf, double theta_deg) {
+double albedo_at_degrees(const Bsdf& brdf, double theta_deg) {
     double a = 0;
     brdf.albedo(from_spherical(radians(theta_deg), 0.3), {&a, 1});
     return a;
@@ -32,10 +32,10 @@ TEST(AbgTest, ValueByHand) {
 TEST(AbgTest, AlbedoAlongTheNormal) {
     // Integral of A / (B + r^g) over the unit disk: g = 2: pi A ln(1 + 1/B); g = 1: 2 pi A
     // (1 - B ln(1 + 1/B)); g = 0: pi A / (B + 1); 1.8 by quadrature.
-    EXPECT_NEAR(albedo_at(AbgBrdf({{0.0025}, 0.001, 2}), 0), 0.0542612, 2e-5);
-    EXPECT_NEAR(albedo_at(AbgBrdf({{0.0025}, 0.001, 1}), 0), 0.0155994, 5e-6);
-    EXPECT_NEAR(albedo_at(AbgBrdf({{0.0025}, 0.001, 1.8}), 0), 0.0413437, 2e-5);
-    EXPECT_NEAR(albedo_at(AbgBrdf({{0.5}, 1, 0}), 0), kPi / 4, 1e-6);
+    EXPECT_NEAR(albedo_at_degrees(AbgBrdf({{0.0025}, 0.001, 2}), 0), 0.0542612, 2e-5);
+    EXPECT_NEAR(albedo_at_degrees(AbgBrdf({{0.0025}, 0.001, 1}), 0), 0.0155994, 5e-6);
+    EXPECT_NEAR(albedo_at_degrees(AbgBrdf({{0.0025}, 0.001, 1.8}), 0), 0.0413437, 2e-5);
+    EXPECT_NEAR(albedo_at_degrees(AbgBrdf({{0.5}, 1, 0}), 0), kPi / 4, 1e-6);
 }
 
 TEST(AbgTest, SamplesFollowTheDensity) {

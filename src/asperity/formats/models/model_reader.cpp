@@ -2,6 +2,7 @@
 #include <asperity/formats/models/model_reader.h>
 
 #include <asperity/core/error.h>
+#include <asperity/core/finite.h>
 #include <asperity/core/parse_number.h>
 #include <asperity/formats/models/far_coordinates.h>
 #include <asperity/formats/models/model_formats.h>
@@ -63,10 +64,6 @@ const ModelFormat& format_of(Formats formats, ModelSource& source) {
         ErrorCode::Usage,
         fmt::format("{} is no model file: {} are read", in_quotes(source.path), names_of(formats)),
         "model");
-}
-
-bool is_finite(Vec3 v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 /// Whether rays can be taken into the instance's own space.

@@ -14,8 +14,6 @@ namespace asperity::generators {
 
 namespace {
 
-constexpr int kRowsPerBlock = 16;
-
 [[noreturn]] void refuse_period(std::string why) {
     throw Error(ErrorCode::Usage, std::move(why), "period");
 }

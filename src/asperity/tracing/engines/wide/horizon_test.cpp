@@ -39,7 +39,7 @@ Heightfield shape(const std::string& kind, int size, double alpha = 0.3) {
 
 /// Height at (x, y) [length] straight from the definition of the triangles. In the frame of the
 /// padded heights: x runs backwards over a surface with the main diagonal.
-double height_at(const Heightfield& s, double x, double y) {
+double height_in_frame(const Heightfield& s, double x, double y) {
     const bool main = s.diagonal == Diagonal::Main;
     const double gx = main ? s.cells_x() - x / s.dx : x / s.dx, gy = y / s.dy;
     double i = std::floor(gx), j = std::floor(gy);
@@ -98,7 +98,7 @@ int count_above_horizon(const Heightfield& s, int looks) {
         const double run = std::hypot(qx - px, qy - py);
         if (run == 0 || (s.boundary == Boundary::Finite && outside)) continue;
 
-        const double slope = (height_at(s, qx, qy) - height_at(s, px, py)) / run;
+        const double slope = (height_in_frame(s, qx, qy) - height_in_frame(s, px, py)) / run;
         const int sector =
             Horizon::sector_of(static_cast<float>(qx - px), static_cast<float>(qy - py));
         const float bound = Horizon::slope_of(horizon.byte(i, j, sector));
@@ -185,13 +185,13 @@ std::array<double, Horizon::kSectors> look_around(const Heightfield& s, int i, i
     for (int k = 0; k < 9; ++k) {
         const double px = i + std::clamp(0.5 * (k % 3), kInside, 1 - kInside);
         const double py = j + std::clamp(0.5 * (k / 3), kInside, 1 - kInside);
-        const double height = height_at(s, px, py);
+        const double height = height_in_frame(s, px, py);
         for (int ray = 0; ray < 5 * Horizon::kSectors; ++ray) {
             const double angle = kSectorWidth * (ray / 5 + 0.02 + 0.24 * (ray % 5));
             double& most = steepest[static_cast<std::size_t>(sector_to(angle))];
             const double x = std::cos(angle), y = std::sin(angle);
             for (double t = 0.05; t < 120; t += t < 20 ? 0.25 : 0.5)
-                most = std::max(most, (height_at(s, px + t * x, py + t * y) - height) / t);
+                most = std::max(most, (height_in_frame(s, px + t * x, py + t * y) - height) / t);
         }
     }
     return steepest;

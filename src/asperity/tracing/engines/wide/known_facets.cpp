@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint64_t kMostCells = std::uint64_t{1} << 29;
 constexpr int kWidest = (1 << 15) - 1 - CountedFacets::kSlack;
 /// So many rows are looked at first, to see whether it pays: when this share is known.
-constexpr int kProbes = 16;
+constexpr int kRowsLookedAt = 16;
 constexpr double kWorthwhile = 0.02;
 /// Rows that are looked at before they are marked, which goes by columns where x and y are swapped.
 constexpr std::size_t kRowsTogether = 16;
@@ -161,7 +161,7 @@ KnownFacets::KnownFacets(const Scene& scene, const Run& run, int threads) {
 /// Looks at a row here and there.
 bool KnownFacets::worthwhile(const Look& look, const Run& run) const {
     Look own = look;
-    const int step = std::max(1, look.cells_y() / kProbes);
+    const int step = std::max(1, look.cells_y() / kRowsLookedAt);
     int known = 0, seen = 0;
     for (int j = 0; j < look.cells_y() && run.keep_going(); j += step) {
         own.look_at(j);

@@ -16,18 +16,18 @@ namespace {
 
 constexpr int kBounces = 8, kOrders = 4;
 
-struct Case {
+struct LitSurface {
     const char* name;
     const char* kind;
     Diagonal diagonal;
     const char* material;  ///< null: perfect mirrors
     double theta_deg, phi_deg;
 };
-void PrintTo(const Case& c, std::ostream* out) {
+void PrintTo(const LitSurface& c, std::ostream* out) {
     *out << c.name;
 }
 
-class KnownFacetsOf : public testing::TestWithParam<Case> {
+class KnownFacetsOf : public testing::TestWithParam<LitSurface> {
   protected:
     KnownFacetsOf()
         : surface_(make()),
@@ -157,14 +157,16 @@ TEST_P(KnownFacetsOf, DoNotDependOnTheThreads) {
 
 INSTANTIATE_TEST_SUITE_P(
     Surfaces, KnownFacetsOf,
-    testing::Values(Case{"normal", "gaussian", Diagonal::Anti, nullptr, 0, 0},
-                    Case{"slanted", "gaussian", Diagonal::Anti, nullptr, 45, 20},
-                    Case{"mirrored", "gaussian", Diagonal::Main, nullptr, 45, 200},
-                    Case{"mirrored_normal", "gaussian", Diagonal::Main, nullptr, 0, 0},
-                    Case{"copper", "gaussian", Diagonal::Anti, "Cu", 45, 20},
-                    Case{"copper_normal", "gaussian", Diagonal::Anti, "Cu", 0, 0},
-                    Case{"thesis", "thesis", Diagonal::Anti, nullptr, 60, 310}),
-    [](const testing::TestParamInfo<Case>& tested) { return std::string(tested.param.name); });
+    testing::Values(LitSurface{"normal", "gaussian", Diagonal::Anti, nullptr, 0, 0},
+                    LitSurface{"slanted", "gaussian", Diagonal::Anti, nullptr, 45, 20},
+                    LitSurface{"mirrored", "gaussian", Diagonal::Main, nullptr, 45, 200},
+                    LitSurface{"mirrored_normal", "gaussian", Diagonal::Main, nullptr, 0, 0},
+                    LitSurface{"copper", "gaussian", Diagonal::Anti, "Cu", 45, 20},
+                    LitSurface{"copper_normal", "gaussian", Diagonal::Anti, "Cu", 0, 0},
+                    LitSurface{"thesis", "thesis", Diagonal::Anti, nullptr, 60, 310}),
+    [](const testing::TestParamInfo<LitSurface>& tested) {
+        return std::string(tested.param.name);
+    });
 
 Heightfield make_mirror(asperity::Run& run) {
     SurfaceSettings settings;

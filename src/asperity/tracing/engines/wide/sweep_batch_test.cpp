@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/directions.h>
 #include <asperity/tracing/engines/wide/sweep_batch.h>
+#include <asperity/tracing/test_tracers.h>
 
 #include <gtest/gtest.h>
 
@@ -12,19 +13,13 @@
 namespace asperity {
 namespace {
 
-Heightfield tile(int nx, int ny) {
-    Heightfield s;
-    s.nx = nx;
-    s.ny = ny;
-    s.heights.assign(static_cast<std::size_t>(nx * ny), 0.0f);
-    return s;
-}
+using test::level_tile;
 
 /// Batches with rays for all lines, and with fewer than that.
 TEST(Sweep, LinesFindEveryPointOfTheTileEquallyLikely) {
     // One ray of each of many batches, told by its line and how far along it lies; chi-square over
     // 12 x 8 parts of the tile, and over where in its cell it starts.
-    const Heightfield s = tile(96, 64);
+    const Heightfield s = level_tile(96, 64);
     for (const auto& [rays, stripes] : {std::pair{13, 1}, {700, 2}, {2000, 3}}) {
         std::vector<double> counts(96), offsets(8);
         constexpr std::uint32_t kBatches = 9600;
@@ -64,7 +59,7 @@ TEST(Sweep, LinesFindEveryPointOfTheTileEquallyLikely) {
 /// Along an axis or a diagonal every line comes through the same places of its cells again and
 /// again: two passes, half a cell aside, where one would do.
 TEST(Sweep, LightAlongTheGridPassesTwice) {
-    const Heightfield s = tile(96, 64);
+    const Heightfield s = level_tile(96, 64);
     const auto passes = [&](double phi) {
         const Incidence light{1, 0.3, radians(phi), false};
         const SweepBatch b(s, light, {LaunchPattern::LowDiscrepancy, 2000, 17, 2, 0});
@@ -77,7 +72,7 @@ TEST(Sweep, LightAlongTheGridPassesTwice) {
 }
 
 TEST(Sweep, LinesHoldAllRaysAndNoneTwice) {
-    const Heightfield s = tile(100, 40);
+    const Heightfield s = level_tile(100, 40);
     for (const double phi : {0.0, 50.0, 90.0, 200.0})
         for (const std::uint64_t rays : {2u, 97u, 250u, 4000u, 10007u}) {
             const Incidence light{1, 1.2, radians(phi), false};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/directions.h>
 #include <asperity/tracing/engines/wide/sweeps_around.h>
+#include <asperity/tracing/test_tracers.h>
 
 #include <gtest/gtest.h>
 
@@ -13,13 +14,7 @@ namespace {
 
 constexpr Incidence kAround{1, 0.6, 0, true};
 
-Heightfield tile(int nx, int ny) {
-    Heightfield s;
-    s.nx = nx;
-    s.ny = ny;
-    s.heights.assign(static_cast<std::size_t>(nx * ny), 0.0f);
-    return s;
-}
+using test::level_tile;
 
 BatchRequest batch(std::uint64_t rays, std::uint32_t index) {
     return {LaunchPattern::LowDiscrepancy, rays, 17, 2, index};
@@ -27,7 +22,7 @@ BatchRequest batch(std::uint64_t rays, std::uint32_t index) {
 
 TEST(SweepsAround, EveryAzimuthIsEquallyLikely) {
     // One given sweep of many batches: chi-square over 32 sectors
-    const Heightfield s = tile(64, 48);
+    const Heightfield s = level_tile(64, 48);
     for (const std::uint64_t rays : {500u, 30000u}) {
         std::vector<double> counts(32);
         constexpr std::uint32_t kBatches = 6400;
@@ -45,7 +40,7 @@ TEST(SweepsAround, EveryAzimuthIsEquallyLikely) {
 }
 
 TEST(SweepsAround, AzimuthsOfABatchAreEvenlySpread) {
-    const Heightfield s = tile(64, 48);
+    const Heightfield s = level_tile(64, 48);
     const SweepsAround b(s, kAround, batch(30000, 3));
     ASSERT_GT(b.sweeps(), 8u);
     for (std::uint64_t k = 1; k < b.sweeps(); ++k)
@@ -54,7 +49,7 @@ TEST(SweepsAround, AzimuthsOfABatchAreEvenlySpread) {
 }
 
 TEST(SweepsAround, HoldAllRaysAndNoPointTwice) {
-    const Heightfield s = tile(64, 48);
+    const Heightfield s = level_tile(64, 48);
     for (const std::uint64_t rays : {2u, 3000u, 30001u}) {
         const SweepsAround b(s, kAround, batch(rays, 5));
         std::uint64_t sum = 0;
@@ -76,7 +71,7 @@ TEST(SweepsAround, HoldAllRaysAndNoPointTwice) {
 }
 
 TEST(SweepsAround, AreForTheLatticeOfIsotropicLightAtAnAngle) {
-    const Heightfield s = tile(64, 48);
+    const Heightfield s = level_tile(64, 48);
     const auto possible = [&](const Incidence& light, LaunchPattern pattern) {
         return SweepsAround::possible(s, light, pattern);
     };
