@@ -35,8 +35,11 @@ void send(Viewport& view, QEvent::Type type, QPointF at, Qt::MouseButtons button
     QCoreApplication::sendEvent(&view, &event);
 }
 
+/// Sleeps between events, as the program does: what spins takes a core away from the picture.
 void run_until(const std::function<bool()>& done) {
-    while (!done()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents, 50);
+    QTimer waker;
+    waker.start(10);
+    while (!done()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
 }
 
 /// Drags for some seconds and says how fluid that was.
