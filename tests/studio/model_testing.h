@@ -59,12 +59,12 @@ struct Bench {
 inline constexpr QSize kSmall{96, 72};
 
 /// The scene as it is now, so many samples a pixel: always the same for the same settings.
-inline Film paint(ModelScene& scene, int passes = 4, QSize size = kSmall) {
+inline Film paint(ModelScene& scene, int samples = 4, QSize size = kSmall) {
     const auto negative = std::make_shared<Negative>();
     const auto painting =
         paint_model(scene.stage().sight().value(), scene.viewport().camera(), negative)(size);
     Run run;
-    for (int k = 0; k < passes; ++k) painting->pass(run);
+    while (painting->samples(0) < samples && painting->pass(run)) {}
     return negative->film();
 }
 

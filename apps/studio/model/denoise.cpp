@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "denoise.h"
 
-#include <asperity/core/parallel.h>
+#include "picture_rows.h"
 
 #include <algorithm>
 #include <array>
@@ -26,26 +26,13 @@ struct Planes {
     }
 };
 
-/// Rows of a picture, dealt to threads.
-template <class OfRow>
-void each_row(int height, Run& run, const OfRow& of_row) {
-    parallel_for(static_cast<std::size_t>(height), run.threads(), [&](std::size_t y) {
-        if (!run.stop_requested()) of_row(static_cast<int>(y));
-    });
-}
-
-std::size_t index(int width, int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-           static_cast<std::size_t>(x);
-}
-
 /// What few samples do not tell of their own variance, the neighbourhood does.
 float variance_round(const Planes& planes, int width, int height, int x, int y) {
     constexpr int kReach = 2;
     float sum = 0, squares = 0, count = 0;
     for (int v = std::max(0, y - kReach); v <= std::min(height - 1, y + kReach); ++v)
         for (int u = std::max(0, x - kReach); u <= std::min(width - 1, x + kReach); ++u) {
-            const float l = planes.luminance(index(width, u, v));
+            const float l = planes.luminance(pixel_index(width, u, v));
             sum += l;
             squares += l * l;
             count += 1;
@@ -59,7 +46,7 @@ Planes planes_of(const Film& film, const PixelGuides& guides, Run& run) {
     Planes planes(film.pixels().size());
     each_row(height, run, [&](int y) {
         for (int x = 0; x < width; ++x) {
-            const std::size_t k = index(width, x, y);
+            const std::size_t k = pixel_index(width, x, y);
             const Rgb mean = film.pixels()[k].mean;
             planes.r[k] = static_cast<float>(mean.r);
             planes.g[k] = static_cast<float>(mean.g);
@@ -68,7 +55,7 @@ Planes planes_of(const Film& film, const PixelGuides& guides, Run& run) {
     });
     each_row(height, run, [&](int y) {
         for (int x = 0; x < width; ++x) {
-            const std::size_t k = index(width, x, y);
+            const std::size_t k = pixel_index(width, x, y);
             if (!(guides.reach[k] > 0)) continue;
             const Pixel& pixel = film.pixels()[k];
             const double error = pixel.standard_error();
@@ -152,12 +139,12 @@ void smooth_row(const Planes& in, const PixelGuides& guides, int y, int step, Pl
             const float kernel = dx == 0 || dy == 0 ? 0.5F : 0.25F;
             const float distance = static_cast<float>(step) * (dx == 0 || dy == 0 ? 1.0F : 1.4142F);
             const auto to = static_cast<std::ptrdiff_t>(dy) * step * width + dx * step;
-            add_tap(in, guides, index(width, first, y), to, static_cast<std::size_t>(last - first),
+            add_tap(in, guides, pixel_index(width, first, y), to, static_cast<std::size_t>(last - first),
                     kernel, distance, sums, static_cast<std::size_t>(first));
         }
     }
     for (int x = 0; x < width; ++x) {
-        const std::size_t k = index(width, x, y), at = static_cast<std::size_t>(x);
+        const std::size_t k = pixel_index(width, x, y), at = static_cast<std::size_t>(x);
         const float all = 1 + sums.w[at];
         out.r[k] = (in.r[k] + sums.r[at]) / all;
         out.g[k] = (in.g[k] + sums.g[at]) / all;
@@ -199,7 +186,7 @@ PixelGuides look_for_guides(const TracedModel& model, const Camera& camera, int 
         for (int x = 0; x < width; ++x) of_row.push_back(rays.at(x + 0.5, y + 0.5));
         model.intersect(of_row, hits);
         for (int x = 0; x < width; ++x) {
-            const std::size_t k = index(width, x, y), at = static_cast<std::size_t>(x);
+            const std::size_t k = pixel_index(width, x, y), at = static_cast<std::size_t>(x);
             put_guides(model, of_row[at], hits[at], pixel, guides, k);
             if (x + 0.5 >= split * width) {
                 guides.px[k] += kFarApart * guides.nx[k];
@@ -220,7 +207,7 @@ std::vector<float> denoised(const Film& film, const PixelGuides& guides, Run& ru
     std::vector<float> rgb(3 * film.pixels().size());
     each_row(guides.height, run, [&](int y) {
         for (int x = 0; x < guides.width; ++x) {
-            const std::size_t k = index(guides.width, x, y);
+            const std::size_t k = pixel_index(guides.width, x, y);
             rgb[3 * k] = planes.r[k];
             rgb[3 * k + 1] = planes.g[k];
             rgb[3 * k + 2] = planes.b[k];

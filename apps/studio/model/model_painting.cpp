@@ -3,6 +3,7 @@
 
 #include "backdrop.h"
 #include "denoise.h"
+#include "sketch.h"
 
 #include <asperity/core/error.h>
 #include <asperity/core/version.h>
@@ -24,6 +25,8 @@ constexpr double kCleanEnough = 0.005;
 constexpr std::uint32_t kFirstLook = 16;
 /// From so many samples on the film is shown as it is.
 constexpr std::uint32_t kMostFiltered = 256;
+/// Pictures of more pixels begin with a sketch of a sixteenth of them, others with one of a fourth.
+constexpr double kLarge = 0.5e6;
 
 Renderer begin(ModelSight sight, const Camera& camera, QSize size) {
     RenderSettings settings;
@@ -44,7 +47,8 @@ class ModelPainting final : public Painting {
         : negative_(std::move(negative)),
           model_(sight.scene.model),
           split_(sight.scene.split ? sight.scene.split->position : 1),
-          noisy_(is_noisy(sight)) {
+          noisy_(is_noisy(sight)),
+          stride_(!noisy_ ? 1 : double(size.width()) * size.height() > kLarge ? 4 : 2) {
         const std::lock_guard lock(negative_->mutex_);
         shot_ = std::make_shared<Negative::Shot>(Negative::Shot{
             begin(sight, camera, size), camera, sight.number, negative_->table(sight.tone)});
@@ -56,6 +60,7 @@ class ModelPainting final : public Painting {
         // Whoever asks for the film goes first
         while (negative_->asking_ > 0 && !run.stop_requested()) std::this_thread::sleep_for(1ms);
         const std::lock_guard lock(negative_->mutex_);
+        if (stride_ > 1) return sketch(run);
         if (is_clean() || !shot_->renderer.render_pass(run)) return false;
         look_at_noise();
         develop(run);
@@ -63,10 +68,30 @@ class ModelPainting final : public Painting {
     }
 
     QImage image() const override { return image_; }
+    int samples(int) const override { return static_cast<int>(shot_->renderer.samples()); }
 
   private:
     bool is_clean() const {
         return shot_->renderer.samples() >= kMostSamples || shot_->noise <= kCleanEnough;
+    }
+
+    const PixelGuides& guides(Run& run) {
+        const Film& film = shot_->renderer.film();
+        if (guides_.width == 0)
+            guides_ =
+                look_for_guides(*model_, shot_->camera, film.width(), film.height(), split_, run);
+        return guides_;
+    }
+
+    /// A picture from a part of the first samples, so that one is there soon.
+    bool sketch(Run& run) {
+        const Sketch sketch(guides(run), stride_, run);
+        stride_ /= 2;
+        if (!shot_->renderer.begin_pass(run, sketch.chosen())) return false;
+        const Film& film = shot_->renderer.film();
+        const std::vector<float> rgb = sketch.filled(film, run);
+        image_ = shot_->table->develop(rgb, film.width(), film.height(), run.threads());
+        return !run.stop_requested();
     }
 
     void look_at_noise() {
@@ -95,10 +120,7 @@ class ModelPainting final : public Painting {
         }
         if (samples < next_shown_) return;
         next_shown_ = samples + std::max(1U, samples / 3);
-        if (guides_.width == 0)
-            guides_ =
-                look_for_guides(*model_, shot_->camera, film.width(), film.height(), split_, run);
-        const std::vector<float> clean = denoised(film, guides_, run);
+        const std::vector<float> clean = denoised(film, guides(run), run);
         if (run.stop_requested()) return;
         image_ = shot_->table->develop(clean, film.width(), film.height(), run.threads());
     }
@@ -108,6 +130,7 @@ class ModelPainting final : public Painting {
     std::shared_ptr<const TracedModel> model_;
     double split_;
     bool noisy_;
+    int stride_;  ///< of the next sketch; 1: there is none
     PixelGuides guides_;
     QImage image_;
     std::uint32_t next_shown_ = 1;

@@ -121,7 +121,8 @@ class Painter::Work {
             if (run.stop_requested()) return;
             const double seconds = now() - began;
             if (wish.moving || (passes == 1 && !pacer_.knows())) pacer_.took(size, seconds);
-            deliver({painting->image(), wish.full, passes, wish.moving, wish.number, seconds});
+            deliver({painting->image(), wish.full, passes, painting->samples(passes), wish.moving,
+                     wish.number, seconds});
         }
     }
 

@@ -22,6 +22,8 @@ class Painting {
     virtual bool pass(Run& run) = 0;
     /// What was painted so far, 8-bit, of the size asked for. After the first pass at least.
     virtual QImage image() const = 0;
+    /// Samples that every pixel has after so many passes: as many, unless it is told here.
+    virtual int samples(int passes) const { return passes; }
 };
 
 /// Begins a painting of `size` pixels. Holds copies of (or shared pointers to) all it needs, for it
@@ -34,6 +36,7 @@ struct Frame {
     QImage image;
     QSize full;
     int passes = 0;
+    int samples = 0;         ///< of every pixel; 0 while some have none
     bool moving = false;     ///< made while the view was moving
     std::uint64_t wish = 0;  ///< what Painter::paint() gave for it
     double seconds = 0;      ///< its first pass took, or all passes so far of a still view

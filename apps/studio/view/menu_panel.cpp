@@ -63,7 +63,7 @@ StudioStatistics frame_statistics(Viewport& viewport) {
     statistics.frames_per_second = viewport.painter().frames_per_second();
     statistics.milliseconds_per_frame = viewport.painter().milliseconds_per_frame();
     const Frame& frame = viewport.frame();
-    statistics.samples = frame.moving ? 0 : frame.passes;
+    statistics.samples = frame.moving ? 0 : frame.samples;
     return statistics;
 }
 

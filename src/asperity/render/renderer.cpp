@@ -48,7 +48,7 @@ Renderer::Renderer(ModelScene scene, const Camera& camera, const RenderSettings&
       tile_samples_(TileGrid{settings_.width, settings_.height}.count(), 0),
       lights_(scene_.lights, settings_) {}
 
-bool Renderer::render_pass(Run& run) {
+void Renderer::sample_tiles(Run& run, std::span<const std::uint8_t> chosen) {
     const TileGrid grid{settings_.width, settings_.height};
     const View view{scene_, settings_, lights_,
                     PixelRays(camera_, settings_.width, settings_.height)};
@@ -60,15 +60,25 @@ bool Renderer::render_pass(Run& run) {
     std::mutex counts_mutex;
     parallel_for(behind.size(), run.threads(), [&](std::size_t k) {
         if (!run.keep_going()) return;
-        const Tile tile = grid.tile(behind[k]);
         RayCounts counts;
-        render_tile(view, tile, sample, film_, counts);
-        ++tile_samples_[behind[k]];
-        run.advance(tile.pixels());
+        run.advance(render_tile(view, grid.tile(behind[k]), sample, chosen, film_, counts));
+        if (chosen.empty()) ++tile_samples_[behind[k]];
         const std::lock_guard lock(counts_mutex);
         rays_ = sum(rays_, counts);
     });
-    return samples() > sample;
+}
+
+bool Renderer::render_pass(Run& run) {
+    const std::uint32_t before = samples();
+    sample_tiles(run, {});
+    return samples() > before;
+}
+
+bool Renderer::begin_pass(Run& run, std::span<const std::uint8_t> chosen) {
+    if (chosen.size() != film_.pixels().size())
+        throw Error(ErrorCode::Usage, "a pass is begun with one entry for each pixel", "chosen");
+    sample_tiles(run, chosen);
+    return !run.stop_requested();
 }
 
 std::uint32_t Renderer::samples() const {

@@ -9,6 +9,7 @@
 #include <asperity/render/scene.h>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace asperity {
@@ -43,6 +44,15 @@ class Renderer {
     /// before.
     bool render_pass(Run& run);
 
+    /// Begins the next pass: takes its sample of those pixels alone whose entry in `chosen`, row by
+    /// row, is not 0, and calls run.advance() with their number. Those who have it already are
+    /// passed over, and so they are by the render_pass() that ends the pass: all samples are those
+    /// that it would have taken alone. For a picture that is wanted before a whole pass is done.
+    ///
+    /// Wishes to stop are heard as by render_pass(); returns false when one came. Throws
+    /// Error(Usage, "chosen") when there is not one entry for each pixel.
+    bool begin_pass(Run& run, std::span<const std::uint8_t> chosen);
+
     /// Of the pixels that have fewest.
     std::uint32_t samples() const;
     /// Between passes only.
@@ -51,6 +61,9 @@ class Renderer {
     const RenderSettings& settings() const { return settings_; }
 
   private:
+    /// One sample of the pixels (of all when `chosen` is empty) of the tiles that are behind.
+    void sample_tiles(Run& run, std::span<const std::uint8_t> chosen);
+
     ModelScene scene_;
     Camera camera_;
     RenderSettings settings_;

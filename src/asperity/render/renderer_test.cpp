@@ -364,6 +364,39 @@ TEST(Renderer, CountsItsRays) {
     EXPECT_EQ(renderer.rays().bounce, 0u);
 }
 
+// A pass that is begun with some pixels is the pass it would have been: picture and rays, to the
+// bit, even where a begun pass is begun again or stopped.
+TEST(Renderer, PassesMayBeBegunWithSomePixels) {
+    const ModelScene scene = rich_scene();
+    Renderer whole(scene, kFront, small()), begun(scene, kFront, small());
+    asperity::Run run(2);
+    const auto every = [](std::size_t n, std::size_t first) {
+        std::vector<std::uint8_t> chosen(40 * 24, 0);
+        for (std::size_t k = first; k < chosen.size(); k += n) chosen[k] = 1;
+        return chosen;
+    };
+    for (int pass = 0; pass < 2; ++pass) {
+        ASSERT_TRUE(whole.render_pass(run));
+        ASSERT_TRUE(begun.begin_pass(run, every(7, 3)));
+        ASSERT_TRUE(begun.begin_pass(run, every(3, 0)));
+        EXPECT_EQ(begun.samples(), static_cast<std::uint32_t>(pass)) << "of those that have fewest";
+        std::size_t ahead = 0;
+        for (const Pixel& pixel : begun.film().pixels())
+            ahead += pixel.samples == static_cast<std::uint32_t>(pass) + 1;
+        EXPECT_EQ(ahead, 137u + 320u - 46u) << "those of either, once";
+        ASSERT_TRUE(begun.render_pass(run));
+    }
+    EXPECT_EQ(begun.film().image().rgb, whole.film().image().rgb);
+    EXPECT_EQ(begun.rays().primary, whole.rays().primary);
+    EXPECT_EQ(begun.rays().shadow, whole.rays().shadow);
+    EXPECT_EQ(begun.rays().bounce, whole.rays().bounce);
+
+    asperity::Run stopped(1);
+    stopped.request_stop();
+    EXPECT_FALSE(begun.begin_pass(stopped, every(2, 0)));
+    EXPECT_THROW(begun.begin_pass(run, std::vector<std::uint8_t>(5, 1)), Error);
+}
+
 TEST(Renderer, RefinesUntilTheNoiseIsReached) {
     ModelScene scene = sphere_scene(matt(0.8));
     scene.lights.push_back(make_light(ConstantLightSettings{}));

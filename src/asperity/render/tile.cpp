@@ -61,8 +61,8 @@ Tile TileGrid::tile(std::size_t k) const {
     return {x, y, std::min(kTileSide, width - x), std::min(kTileSide, height - y)};
 }
 
-void render_tile(const View& view, const Tile& tile, std::uint32_t sample, Film& film,
-                 RayCounts& counts) {
+std::uint64_t render_tile(const View& view, const Tile& tile, std::uint32_t sample,
+                          std::span<const std::uint8_t> chosen, Film& film, RayCounts& counts) {
     const FlushDenormals flush;
     std::vector<Path> paths;
     std::vector<std::uint32_t> pixels;
@@ -70,8 +70,10 @@ void render_tile(const View& view, const Tile& tile, std::uint32_t sample, Film&
     pixels.reserve(tile.pixels());
     for (int y = tile.y; y < tile.y + tile.height; ++y) {
         for (int x = tile.x; x < tile.x + tile.width; ++x) {
-            pixels.push_back(static_cast<std::uint32_t>(y * view.settings.width + x));
-            paths.push_back(start(view, x, y, pixels.back(), sample));
+            const auto pixel = static_cast<std::uint32_t>(y * view.settings.width + x);
+            if (film.at(x, y).samples > sample || (!chosen.empty() && chosen[pixel] == 0)) continue;
+            pixels.push_back(pixel);
+            paths.push_back(start(view, x, y, pixel, sample));
         }
     }
 
@@ -81,13 +83,14 @@ void render_tile(const View& view, const Tile& tile, std::uint32_t sample, Film&
     else
         trace_paths(wave);
 
+    const auto width = static_cast<std::uint32_t>(view.settings.width);
     for (std::size_t k = 0; k < paths.size(); ++k) {
-        const int x = tile.x + static_cast<int>(k) % tile.width;
-        const int y = tile.y + static_cast<int>(k) / tile.width;
         const bool valid = is_finite(paths[k].radiance);
         if (!valid) ++counts.invalid;
-        film.at(x, y).add(valid ? paths[k].radiance : Rgb{});
+        film.at(static_cast<int>(pixels[k] % width), static_cast<int>(pixels[k] / width))
+            .add(valid ? paths[k].radiance : Rgb{});
     }
+    return paths.size();
 }
 
 }  // namespace asperity

@@ -3,6 +3,9 @@
 
 #include <asperity/render/wave.h>
 
+#include <cstdint>
+#include <span>
+
 namespace asperity {
 
 /// Side of a tile [pixels].
@@ -29,8 +32,10 @@ struct TileGrid {
     Tile tile(std::size_t k) const;
 };
 
-/// Takes sample `sample` of every pixel of a tile and adds it to the film.
-void render_tile(const View& view, const Tile& tile, std::uint32_t sample, Film& film,
-                 RayCounts& counts);
+/// Takes sample `sample` of the pixels of a tile that have not got it yet and adds it to the film:
+/// of all, or of those alone whose entry in `chosen`, row by row of the film, is not 0. Returns how
+/// many they were.
+std::uint64_t render_tile(const View& view, const Tile& tile, std::uint32_t sample,
+                          std::span<const std::uint8_t> chosen, Film& film, RayCounts& counts);
 
 }  // namespace asperity
