@@ -153,50 +153,7 @@ void smooth_row(const Planes& in, const PixelGuides& guides, int y, int step, Pl
     }
 }
 
-void put_guides(const TracedModel& model, const WorldRay& ray, const Hit& hit, float pixel,
-                PixelGuides& guides, std::size_t k) {
-    if (!hit.found()) return;
-    const SurfacePoint point = model.surface(ray, hit);
-    const auto single = [](double c) { return static_cast<float>(c); };
-    guides.nx[k] = single(point.shading_normal.x);
-    guides.ny[k] = single(point.shading_normal.y);
-    guides.nz[k] = single(point.shading_normal.z);
-    guides.px[k] = single(point.position.x);
-    guides.py[k] = single(point.position.y);
-    guides.pz[k] = single(point.position.z);
-    // Curved surfaces leave their tangent plane by less than the way along it
-    guides.reach[k] = 2 * pixel * hit.distance;
-}
-
 }  // namespace
-
-PixelGuides look_for_guides(const TracedModel& model, const Camera& camera, int width, int height,
-                            double split, Run& run) {
-    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    PixelGuides guides{width, height, {}, {}, {}, {}, {}, {}, {}};
-    for (auto* plane :
-         {&guides.nx, &guides.ny, &guides.nz, &guides.px, &guides.py, &guides.pz, &guides.reach})
-        plane->resize(pixels);
-    const PixelRays rays(camera, width, height);
-    const auto pixel = static_cast<float>(2 * std::tan(0.5 * radians(camera.fov_deg)) / height);
-    constexpr float kFarApart = 100;
-    each_row(height, run, [&](int y) {
-        std::vector<WorldRay> of_row;
-        std::vector<Hit> hits(static_cast<std::size_t>(width));
-        for (int x = 0; x < width; ++x) of_row.push_back(rays.at(x + 0.5, y + 0.5));
-        model.intersect(of_row, hits);
-        for (int x = 0; x < width; ++x) {
-            const std::size_t k = pixel_index(width, x, y), at = static_cast<std::size_t>(x);
-            put_guides(model, of_row[at], hits[at], pixel, guides, k);
-            if (x + 0.5 >= split * width) {
-                guides.px[k] += kFarApart * guides.nx[k];
-                guides.py[k] += kFarApart * guides.ny[k];
-                guides.pz[k] += kFarApart * guides.nz[k];
-            }
-        }
-    });
-    return guides;
-}
 
 std::vector<float> denoised(const Film& film, const PixelGuides& guides, Run& run) {
     Planes planes = planes_of(film, guides, run), other = planes;

@@ -75,11 +75,14 @@ class ModelPainting final : public Painting {
         return shot_->renderer.samples() >= kMostSamples || shot_->noise <= kCleanEnough;
     }
 
+    /// Those of the first picture are guessed, for it is wanted soon.
     const PixelGuides& guides(Run& run) {
+        const bool first = guides_.width == 0;
+        if (!first && !guessed_) return guides_;
         const Film& film = shot_->renderer.film();
-        if (guides_.width == 0)
-            guides_ =
-                look_for_guides(*model_, shot_->camera, film.width(), film.height(), split_, run);
+        guides_ = (first ? guess_guides : look_for_guides)(*model_, shot_->camera, film.width(),
+                                                           film.height(), split_, run);
+        guessed_ = first;
         return guides_;
     }
 
@@ -132,6 +135,7 @@ class ModelPainting final : public Painting {
     bool noisy_;
     int stride_;  ///< of the next sketch; 1: there is none
     PixelGuides guides_;
+    bool guessed_ = false;
     QImage image_;
     std::uint32_t next_shown_ = 1;
     std::uint32_t next_look_ = kFirstLook;

@@ -14,11 +14,13 @@ namespace {
 constexpr float kAlike = 0.05F;
 /// And one that finds none there either is sampled itself.
 constexpr float kAtAll = 0.002F;
+constexpr float kWhole = 255;
 
 /// How much two pixels are of one surface, 0 .. 1: by their normals, and by how far one lies off
-/// the plane of the other; `reach` is as far as it may.
+/// the plane of the other; `reach` is as far as it may. What hits nothing is alike too.
 float likeness(const PixelGuides& a, std::size_t k, const PixelGuides& b, std::size_t m,
                float reach) {
+    if (!(a.reach[k] > 0) || !(b.reach[m] > 0)) return a.reach[k] == b.reach[m] ? 1 : 0;
     float alike = a.nx[k] * b.nx[m] + a.ny[k] * b.ny[m] + a.nz[k] * b.nz[m];
     if (!(alike > 0)) return 0;
     alike *= alike;  // to the 16th power
@@ -69,7 +71,8 @@ Sketch::Sketch(const PixelGuides& guides, int stride, Run& run)
              {},
              {},
              {}},
-      chosen_(guides.reach.size(), 0) {
+      chosen_(guides.reach.size(), 0),
+      shares_(guides.reach.size()) {
     const auto pick = [&](const std::vector<float>& from, std::vector<float>& to, float factor) {
         to.reserve(static_cast<std::size_t>(nodes_.width) *
                    static_cast<std::size_t>(nodes_.height));
@@ -87,20 +90,43 @@ Sketch::Sketch(const PixelGuides& guides, int stride, Run& run)
     pick(guides.reach, nodes_.reach, static_cast<float>(stride));
 
     each_row(guides.height, run, [&](int y) {
-        for (int x = 0; x < guides.width; ++x) {
-            const std::size_t k = pixel_index(guides.width, x, y);
-            chosen_[k] = !(guides.reach[k] > 0) || blend(x, y).sum < kAtAll ? 1 : 0;
-        }
+        const std::size_t width = static_cast<std::size_t>(guides.width);
+        liken(y, std::span(shares_).subspan(static_cast<std::size_t>(y) * width, width));
     });
     for (int row = 0; row < nodes_.height; ++row)
         for (int column = 0; column < nodes_.width; ++column)
             chosen_[pixel_of(column, row)] = 1;
 }
 
+void Sketch::liken(int y, std::span<Shares> row) {
+    const Between v = between(y, stride_, nodes_.height);
+    const std::size_t upper = pixel_index(nodes_.width, 0, v.first),
+                      lower = pixel_index(nodes_.width, 0, v.second);
+    for (std::size_t x = 0; x < row.size(); ++x) {
+        const std::size_t pixel = pixel_index(guides_.width, 0, y) + x;
+        const Between h = between(static_cast<int>(x), stride_, nodes_.width);
+        const auto left = static_cast<std::size_t>(h.first),
+                   right = static_cast<std::size_t>(h.second);
+        const float reach = static_cast<float>(stride_) * guides_.reach[pixel];
+        const auto like = [&](std::size_t node) {
+            return likeness(guides_, pixel, nodes_, node, reach);
+        };
+        const std::array<float, 4> w = {
+            (1 - h.t) * (1 - v.t) * like(upper + left), h.t * (1 - v.t) * like(upper + right),
+            (1 - h.t) * v.t * like(lower + left), h.t * v.t * like(lower + right)};
+        const float sum = w[0] + w[1] + w[2] + w[3];
+        if (sum >= kAlike) {
+            for (std::size_t k = 0; k < 4; ++k)
+                row[x][k] = static_cast<std::uint8_t>(w[k] * (kWhole / sum) + 0.5F);
+        } else {
+            chosen_[pixel] = look_farther(static_cast<int>(x), y).sum < kAtAll ? 1 : 0;
+        }
+    }
+}
+
 void Sketch::add_node(int column, int row, float weight, std::size_t pixel, Blend& blend) const {
     const std::size_t node = pixel_index(nodes_.width, column, row);
     const float reach = static_cast<float>(stride_) * guides_.reach[pixel];
-    if (!(nodes_.reach[node] > 0)) return;
     const float w = weight * likeness(guides_, pixel, nodes_, node, reach);
     if (!(w > 0)) return;
     blend.node[blend.count] = node;
@@ -108,23 +134,45 @@ void Sketch::add_node(int column, int row, float weight, std::size_t pixel, Blen
     blend.sum += w;
 }
 
-Sketch::Blend Sketch::blend(int x, int y) const {
+Sketch::Blend Sketch::look_farther(int x, int y) const {
     const std::size_t pixel = pixel_index(guides_.width, x, y);
-    const Between h = between(x, stride_, nodes_.width), v = between(y, stride_, nodes_.height);
+    const int first_column = x / stride_ - 1, first_row = y / stride_ - 1;
     Blend blend;
-    add_node(h.first, v.first, (1 - h.t) * (1 - v.t), pixel, blend);
-    add_node(h.second, v.first, h.t * (1 - v.t), pixel, blend);
-    add_node(h.first, v.second, (1 - h.t) * v.t, pixel, blend);
-    add_node(h.second, v.second, h.t * v.t, pixel, blend);
-    if (blend.sum >= kAlike) return blend;
-    // One farther on every side
-    blend.count = 0;
-    blend.sum = 0;
-    for (int row = std::max(0, v.first - 1); row <= std::min(v.first + 2, nodes_.height - 1); ++row)
-        for (int column = std::max(0, h.first - 1);
-             column <= std::min(h.first + 2, nodes_.width - 1); ++column)
+    for (int row = std::max(0, first_row); row < std::min(first_row + 4, nodes_.height); ++row)
+        for (int column = std::max(0, first_column);
+             column < std::min(first_column + 4, nodes_.width); ++column)
             add_node(column, row, 1.0F / Blend::kMost, pixel, blend);
     return blend;
+}
+
+void Sketch::fill(int y, const Film& film, const std::vector<float>& nodes, float* out) const {
+    const Between v = between(y, stride_, nodes_.height);
+    const float* const upper = nodes.data() + 3 * pixel_index(nodes_.width, 0, v.first);
+    const float* const lower = nodes.data() + 3 * pixel_index(nodes_.width, 0, v.second);
+    for (int x = 0; x < guides_.width; ++x, out += 3) {
+        const std::size_t pixel = pixel_index(guides_.width, x, y);
+        const Between h = between(x, stride_, nodes_.width);
+        const Shares& share = shares_[pixel];
+        const int sum = share[0] + share[1] + share[2] + share[3];
+        if (sum > 0) {
+            const float unit = 1 / static_cast<float>(sum);
+            for (int c = 0; c < 3; ++c)
+                out[c] = unit * (static_cast<float>(share[0]) * upper[3 * h.first + c] +
+                                 static_cast<float>(share[1]) * upper[3 * h.second + c] +
+                                 static_cast<float>(share[2]) * lower[3 * h.first + c] +
+                                 static_cast<float>(share[3]) * lower[3 * h.second + c]);
+        } else if (chosen_[pixel] != 0) {
+            const Rgb mean = film.pixels()[pixel].mean;
+            out[0] = static_cast<float>(mean.r);
+            out[1] = static_cast<float>(mean.g);
+            out[2] = static_cast<float>(mean.b);
+        } else {
+            const Blend from = look_farther(x, y);
+            for (std::size_t n = 0; n < from.count; ++n)
+                for (std::size_t c = 0; c < 3; ++c)
+                    out[c] += from.weight[n] / from.sum * nodes[3 * from.node[n] + c];
+        }
+    }
 }
 
 std::vector<float> Sketch::filled(const Film& film, Run& run) const {
@@ -136,23 +184,7 @@ std::vector<float> Sketch::filled(const Film& film, Run& run) const {
 
     std::vector<float> rgb(3 * film.pixels().size());
     each_row(guides_.height, run, [&](int y) {
-        for (int x = 0; x < guides_.width; ++x) {
-            const std::size_t k = pixel_index(guides_.width, x, y);
-            float* const out = rgb.data() + 3 * k;
-            const Blend from = guides_.reach[k] > 0 ? blend(x, y) : Blend{};
-            if (from.sum < kAtAll) {  // it has a sample of its own
-                const Rgb mean = film.pixels()[k].mean;
-                out[0] = static_cast<float>(mean.r);
-                out[1] = static_cast<float>(mean.g);
-                out[2] = static_cast<float>(mean.b);
-                continue;
-            }
-            for (std::size_t n = 0; n < from.count; ++n) {
-                const float share = from.weight[n] / from.sum;
-                const float* const node = clean.data() + 3 * from.node[n];
-                for (int c = 0; c < 3; ++c) out[c] += share * node[c];
-            }
-        }
+        fill(y, film, clean, rgb.data() + 3 * pixel_index(guides_.width, 0, y));
     });
     return rgb;
 }

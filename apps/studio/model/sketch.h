@@ -3,7 +3,9 @@
 
 #include "denoise.h"
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace asperity::studio {
@@ -26,16 +28,23 @@ class Sketch {
     std::vector<float> filled(const Film& film, Run& run) const;
 
   private:
-    /// How much of each of the nodes about it a pixel takes.
+    /// How much of the four nodes about it a pixel takes, in 255ths; all 0: it has a sample itself,
+    /// or looks farther.
+    using Shares = std::array<std::uint8_t, 4>;
     struct Blend;
-    Blend blend(int x, int y) const;
+
+    void liken(int y, std::span<Shares> row);
+    /// Of the sixteen nodes about a pixel.
+    Blend look_farther(int x, int y) const;
     void add_node(int column, int row, float weight, std::size_t pixel, Blend& blend) const;
+    void fill(int y, const Film& film, const std::vector<float>& nodes, float* out) const;
     std::size_t pixel_of(int column, int row) const;
 
     const PixelGuides& guides_;
     int stride_;
     PixelGuides nodes_;  ///< the guides of the first pixels of the squares
     std::vector<std::uint8_t> chosen_;
+    std::vector<Shares> shares_;
 };
 
 }  // namespace asperity::studio
