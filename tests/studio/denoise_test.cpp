@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Noise is taken out of what is shown, edges are not; and the studio's soft sky is as bright as it
-// says.
+// Noise is taken out of what is shown, edges are not; sketches have them from the first; and the
+// studio's soft sky is as bright as it says.
 #include "model/denoise.h"
+#include "model/sketch.h"
 #include "model/soft_sky.h"
 
 #include <asperity/core/directions.h>
@@ -9,6 +10,7 @@
 
 #include <QTest>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -80,6 +82,11 @@ class DenoiseTest : public QObject {
     void what_is_sure_is_not_touched();
     void threads_do_not_matter();
     void guides_are_what_rays_meet();
+    void guessed_guides_have_the_same_outlines();
+    void a_sketch_knows_the_light_of_all_pixels_data();
+    void a_sketch_knows_the_light_of_all_pixels();
+    void a_sketch_samples_what_is_like_nothing_else();
+    void a_sketch_forgets_a_single_bright_sample();
     void soft_sky_has_the_luminance_of_one();
 };
 
@@ -140,6 +147,82 @@ void DenoiseTest::guides_are_what_rays_meet() {
     QCOMPARE(guides.reach[0], 0.0F);  // a corner: past the sphere
     const std::size_t other_side = 32 * 65 + 50;
     QVERIFY(guides.nz[other_side] > 0 && guides.pz[other_side] > 10);  // far from its neighbours
+}
+
+void DenoiseTest::guessed_guides_have_the_same_outlines() {
+    asperity::Run run(2);
+    const TracedModel knot(make_builtin_model("knot"), run);
+    const Camera camera = look_at({0.5, 0.8, 3}, {0, 0, 0}, 45);
+    const PixelGuides exact = look_for_guides(knot, camera, 301, 200, 0.5, run);
+    const PixelGuides guessed = guess_guides(knot, camera, 301, 200, 0.5, run);
+    std::size_t off = 0;
+    for (std::size_t k = 0; k < exact.reach.size(); ++k) {
+        QCOMPARE(guessed.reach[k] > 0, exact.reach[k] > 0);
+        const Vec3 n{double{exact.nx[k]}, double{exact.ny[k]}, double{exact.nz[k]}};
+        const Vec3 m{double{guessed.nx[k]}, double{guessed.ny[k]}, double{guessed.nz[k]}};
+        constexpr double kFiveDegrees = 0.0872;
+        off += length(cross(n, m)) > kFiveDegrees * length(m);
+    }
+    QVERIFY2(off < exact.reach.size() / 2000, qPrintable(QString::number(off)));
+}
+
+void DenoiseTest::a_sketch_knows_the_light_of_all_pixels_data() {
+    QTest::addColumn<int>("stride");
+    QTest::newRow("a fourth") << 2;
+    QTest::newRow("a sixteenth") << 4;
+}
+
+void DenoiseTest::a_sketch_knows_the_light_of_all_pixels() {
+    QFETCH(int, stride);
+    const PixelGuides guides = folded_wall();
+    asperity::Run one(1), three(3);
+    const Sketch sketch(guides, stride, one);
+    const auto count = std::count(sketch.chosen().begin(), sketch.chosen().end(), 1);
+    // Those of one half that lie beyond the last of its nodes find others farther away
+    QCOMPARE(count, kWidth * kHeight / (stride * stride));
+    Film film(kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+            if (sketch.chosen()[at(x, y)] != 0) {
+                const double grey = x < kWidth / 2 ? 1 : 3;
+                film.at(x, y).add({grey, grey, grey});
+            }
+    const std::vector<float> rgb = sketch.filled(film, one);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+            QVERIFY2(std::abs(double{rgb[3 * at(x, y)]} - (x < kWidth / 2 ? 1 : 3)) < 1e-3,
+                     qPrintable(QString("%1, %2").arg(x).arg(y)));
+    QVERIFY(rgb == sketch.filled(film, three));
+}
+
+void DenoiseTest::a_sketch_samples_what_is_like_nothing_else() {
+    // One pixel between the nodes that faces elsewhere, and lies elsewhere
+    PixelGuides guides = folded_wall();
+    const std::size_t lone = at(13, 22);
+    guides.nx[lone] = 0, guides.ny[lone] = 1, guides.nz[lone] = 0;
+    guides.py[lone] += 5;
+    asperity::Run run(2);
+    const Sketch sketch(guides, 4, run);
+    QVERIFY(sketch.chosen()[lone] == 1);
+    Film film(kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) film.at(x, y).add({1, 1, 1});
+    film.at(13, 22) = {};
+    film.at(13, 22).add({7, 7, 7});
+    const std::vector<float> rgb = sketch.filled(film, run);
+    QVERIFY(std::abs(double{rgb[3 * lone]} - 7) < 1e-6);
+    QVERIFY(std::abs(double{rgb[3 * (lone + 1)]} - 1) < 1e-3);
+}
+
+void DenoiseTest::a_sketch_forgets_a_single_bright_sample() {
+    const PixelGuides guides = folded_wall();
+    asperity::Run run(2);
+    const Sketch sketch(guides, 4, run);
+    Film film = noisy_film(1, 0);
+    film.at(20, 32) = {};
+    film.at(20, 32).add({1000, 1000, 1000});
+    const std::vector<float> rgb = sketch.filled(film, run);
+    QVERIFY(std::abs(double{rgb[3 * at(20, 32)]} - 1) < 1e-3);
 }
 
 void DenoiseTest::soft_sky_has_the_luminance_of_one() {

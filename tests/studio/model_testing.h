@@ -64,7 +64,8 @@ inline Film paint(ModelScene& scene, int samples = 4, QSize size = kSmall) {
     const auto painting =
         paint_model(scene.stage().sight().value(), scene.viewport().camera(), negative)(size);
     Run run;
-    while (painting->samples(0) < samples && painting->pass(run)) {}
+    while (painting->samples(0) < samples && painting->pass(run)) {
+    }
     return negative->film();
 }
 

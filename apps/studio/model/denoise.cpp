@@ -139,8 +139,9 @@ void smooth_row(const Planes& in, const PixelGuides& guides, int y, int step, Pl
             const float kernel = dx == 0 || dy == 0 ? 0.5F : 0.25F;
             const float distance = static_cast<float>(step) * (dx == 0 || dy == 0 ? 1.0F : 1.4142F);
             const auto to = static_cast<std::ptrdiff_t>(dy) * step * width + dx * step;
-            add_tap(in, guides, pixel_index(width, first, y), to, static_cast<std::size_t>(last - first),
-                    kernel, distance, sums, static_cast<std::size_t>(first));
+            add_tap(in, guides, pixel_index(width, first, y), to,
+                    static_cast<std::size_t>(last - first), kernel, distance, sums,
+                    static_cast<std::size_t>(first));
         }
     }
     for (int x = 0; x < width; ++x) {

@@ -48,7 +48,9 @@ class ModelPainting final : public Painting {
           model_(sight.scene.model),
           split_(sight.scene.split ? sight.scene.split->position : 1),
           noisy_(is_noisy(sight)),
-          stride_(!noisy_ ? 1 : double(size.width()) * size.height() > kLarge ? 4 : 2) {
+          stride_(!noisy_                                         ? 1
+                  : double(size.width()) * size.height() > kLarge ? 4
+                                                                  : 2) {
         const std::lock_guard lock(negative_->mutex_);
         shot_ = std::make_shared<Negative::Shot>(Negative::Shot{
             begin(sight, camera, size), camera, sight.number, negative_->table(sight.tone)});

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace asperity::studio {
 
@@ -31,6 +32,28 @@ float likeness(const PixelGuides& a, std::size_t k, const PixelGuides& b, std::s
                       a.nz[k] * (b.pz[m] - a.pz[k]);
     const float share = off / reach;
     return alike * std::max(0.0F, 1 - share * share);
+}
+
+/// Brings a pixel that stands out of all its neighbours of the same surface back among them: one
+/// path in many that found a bright light, or one that passed by an edge.
+Rgb among_neighbours(const Film& film, const PixelGuides& guides, int x, int y) {
+    constexpr float kSame = 0.3F;
+    const std::size_t k = pixel_index(guides.width, x, y);
+    const Rgb own = film.at(x, y).mean;
+    if (!(guides.reach[k] > 0)) return own;
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    Rgb least{kNone, kNone, kNone}, most{-kNone, -kNone, -kNone};
+    for (int v = std::max(0, y - 1); v <= std::min(guides.height - 1, y + 1); ++v)
+        for (int u = std::max(0, x - 1); u <= std::min(guides.width - 1, x + 1); ++u) {
+            const std::size_t m = pixel_index(guides.width, u, v);
+            if (m == k || likeness(guides, k, guides, m, guides.reach[k]) < kSame) continue;
+            const Rgb c = film.at(u, v).mean;
+            least = {std::min(least.r, c.r), std::min(least.g, c.g), std::min(least.b, c.b)};
+            most = {std::max(most.r, c.r), std::max(most.g, c.g), std::max(most.b, c.b)};
+        }
+    if (least.r > most.r) return own;  // none is like it
+    return {std::clamp(own.r, least.r, most.r), std::clamp(own.g, least.g, most.g),
+            std::clamp(own.b, least.b, most.b)};
 }
 
 /// Of a pixel at `place` among nodes: the two it lies between, and how far from the first.
@@ -78,8 +101,7 @@ Sketch::Sketch(const PixelGuides& guides, int stride, Run& run)
                    static_cast<std::size_t>(nodes_.height));
         for (int row = 0; row < nodes_.height; ++row)
             for (int column = 0; column < nodes_.width; ++column)
-                to.push_back(
-                    factor * from[pixel_of(column, row)]);
+                to.push_back(factor * from[pixel_of(column, row)]);
     };
     pick(guides.nx, nodes_.nx, 1);
     pick(guides.ny, nodes_.ny, 1);
@@ -94,8 +116,7 @@ Sketch::Sketch(const PixelGuides& guides, int stride, Run& run)
         liken(y, std::span(shares_).subspan(static_cast<std::size_t>(y) * width, width));
     });
     for (int row = 0; row < nodes_.height; ++row)
-        for (int column = 0; column < nodes_.width; ++column)
-            chosen_[pixel_of(column, row)] = 1;
+        for (int column = 0; column < nodes_.width; ++column) chosen_[pixel_of(column, row)] = 1;
 }
 
 void Sketch::liken(int y, std::span<Shares> row) {
@@ -180,7 +201,12 @@ std::vector<float> Sketch::filled(const Film& film, Run& run) const {
     for (int row = 0; row < nodes_.height; ++row)
         for (int column = 0; column < nodes_.width; ++column)
             sampled.at(column, row) = film.pixels()[pixel_of(column, row)];
-    const std::vector<float> clean = denoised(sampled, nodes_, run);
+    Film calm = sampled;
+    each_row(nodes_.height, run, [&](int row) {
+        for (int column = 0; column < nodes_.width; ++column)
+            calm.at(column, row).mean = among_neighbours(sampled, nodes_, column, row);
+    });
+    const std::vector<float> clean = denoised(calm, nodes_, run);
 
     std::vector<float> rgb(3 * film.pixels().size());
     each_row(guides_.height, run, [&](int y) {

@@ -11,10 +11,10 @@
 namespace asperity::studio {
 
 /// A picture of which only some pixels have been sampled: the first of each square of stride x
-/// stride pixels, and those that look like none of the pixels sampled about them. The others take their
-/// light from the sampled ones that their guides liken them to (joint bilateral upsampling, Kopf et
-/// al. 2007), after the noise was taken out of these. So the outlines of a model are there at full
-/// resolution long before its light. For the screen alone, like denoised().
+/// stride pixels, and those that look like none of the pixels sampled about them. The others take
+/// their light from the sampled ones that their guides liken them to (joint bilateral upsampling,
+/// Kopf et al. 2007), after the noise was taken out of these. So the outlines of a model are there
+/// at full resolution long before its light. For the screen alone, like denoised().
 class Sketch {
   public:
     /// `guides` must live as long.
