@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <utility>
 
 namespace asperity::bench {
 

@@ -11,6 +11,7 @@
 #include <asperity/core/version.h>
 
 #include <algorithm>
+#include <exception>
 #include <new>
 #include <stdexcept>
 #include <string>

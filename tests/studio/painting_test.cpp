@@ -7,8 +7,10 @@
 #include <QTest>
 
 #include <atomic>
+#include <cmath>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 namespace asperity::studio {
 namespace {

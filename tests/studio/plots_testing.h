@@ -6,6 +6,7 @@
 #include <QPointF>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace asperity::studio::test {

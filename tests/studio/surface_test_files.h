@@ -2,6 +2,7 @@
 // Surfaces as instruments write them, made so that what must come out is known.
 #pragma once
 
+#include <asperity/core/directions.h>
 #include <asperity/core/vec.h>
 
 #include <QByteArray>

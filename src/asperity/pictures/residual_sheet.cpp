@@ -7,6 +7,7 @@
 #include <asperity/pictures/stroke_font.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace asperity::io {

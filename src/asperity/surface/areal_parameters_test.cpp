@@ -13,6 +13,7 @@
 #include <functional>
 #include <numbers>
 #include <numeric>
+#include <tuple>
 
 namespace asperity {
 namespace {

@@ -5,6 +5,7 @@
 #include <asperity/formats/exr/exr_stream.h>
 #include <fmt/format.h>
 
+#include <exception>
 #include <new>
 #include <optional>
 #include <string>

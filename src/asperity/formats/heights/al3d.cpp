@@ -3,6 +3,7 @@
 #include <asperity/formats/heights/builtin_heights.h>
 #include <asperity/formats/heights/grid_reader.h>
 
+#include <limits>
 #include <map>
 
 namespace asperity::io {

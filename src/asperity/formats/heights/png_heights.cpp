@@ -8,6 +8,7 @@
 #include <array>
 #include <csetjmp>
 #include <cstring>
+#include <new>
 #include <span>
 #include <vector>
 

@@ -6,6 +6,7 @@
 #include <asperity/formats/heights/zlib_inflate.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace asperity::io {
 namespace {

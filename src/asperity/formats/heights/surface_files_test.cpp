@@ -8,6 +8,7 @@
 
 #include <cstring>
 #include <random>
+#include <tuple>
 
 namespace asperity::io {
 namespace {

@@ -17,6 +17,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <system_error>
 #include <unordered_map>
 #include <utility>
 

@@ -10,6 +10,7 @@
 
 #include <limits>
 #include <random>
+#include <tuple>
 
 namespace asperity::io {
 namespace {
