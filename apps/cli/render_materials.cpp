@@ -9,7 +9,6 @@
 #include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/experiment_text.h>
 #include <asperity/measured/baked_brdf.h>
-#include <asperity/measured/tabulated.h>
 
 #include <fmt/format.h>
 
@@ -32,7 +31,7 @@ std::shared_ptr<const Bsdf> load_brdf(const std::string& text, Run& run, io::Pro
     }
     origin.emplace_back("experiment", to_text(m.experiment));
     origin.emplace_back("experiment-checksum", io::checksum(m));
-    return bake_brdf(*make_tabulated_brdf(m, run), run);
+    return bake_brdf(m, run);
 }
 
 }  // namespace

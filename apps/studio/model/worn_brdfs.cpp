@@ -9,7 +9,6 @@
 #include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/experiment_text.h>
 #include <asperity/measured/baked_brdf.h>
-#include <asperity/measured/tabulated.h>
 
 #include <QFileInfo>
 
@@ -152,9 +151,8 @@ WornBrdfs::Simulated WornBrdfs::simulate(const Source& source, Run& run) {
     const std::string where = source.drawn != nullptr ? "the result drawn" : source.file;
     expect_colours(measurement->channels(), where);
     if (run.stop_requested()) throw Error(ErrorCode::Stopped, "stopped");
-    const auto table = make_tabulated_brdf(*measurement, run);
     return {source,
-            bake_brdf(*table, run),
+            bake_brdf(*measurement, run),
             QString::fromStdString(measurement->surface_name),
             false,
             {{"experiment", to_text(measurement->experiment)},

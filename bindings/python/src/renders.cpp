@@ -8,7 +8,6 @@
 #include <asperity/formats/images/image_reader.h>
 #include <asperity/formats/models/model_reader.h>
 #include <asperity/measured/baked_brdf.h>
-#include <asperity/measured/tabulated.h>
 #include <asperity/render/builtin_models.h>
 #include <asperity/render/camera_controller.h>
 #include <asperity/render/environment_map.h>
@@ -100,7 +99,7 @@ BsdfHandle ready(const BsdfHandle& b, int threads) {
 BsdfHandle ready(const MeasurementHandle& m, int threads) {
     const nb::gil_scoped_release free;
     Run run(threads);
-    return {bake_brdf(*make_tabulated_brdf(*m.measurement), run), true};
+    return {bake_brdf(*m.measurement, run), true};
 }
 BsdfHandle ready_own(OwnBsdf& own, int threads) {
     return {with_answers(own,

@@ -32,6 +32,13 @@ void for_energies(const SumShape& shape, Work work) {
                          ((order * shape.sides + side) * shape.cells + cell) * values + v);
 }
 
+void require_spread(const LayerSpread& spread) {
+    if (!spread.squares.empty() && !spread.reached.empty()) return;
+    throw Error(ErrorCode::InvalidInput,
+                "it does not hold what its errors come from (results of older versions do not): "
+                "measure it anew");
+}
+
 }  // namespace
 
 std::vector<float> errors_of(const LayerSums& sums) {
@@ -41,6 +48,35 @@ std::vector<float> errors_of(const LayerSums& sums) {
         errors[out] = static_cast<float>(cells[place].error);
     });
     return errors;
+}
+
+std::vector<float> errors_of(const Layer& layer, const SumShape& shape) {
+    const LayerSpread& spread = layer.spread;
+    require_spread(spread);
+    // They know nothing of orders, groups and reflections.
+    LayerSums sums;
+    sums.shape = shape;
+    sums.shape.orders = 1;
+    sums.largest_batch = spread.largest_batch;
+    sums.done = spread.done;
+    const std::size_t size = spread.squares.size();
+    sums.energy.resize(size);
+    sums.squares.resize(size);
+    sums.reached.resize(size);
+    sums.stretched.resize(spread.stretched.size());
+    sums.exact.resize(spread.exact.size());
+    const std::size_t side = shape.values() * shape.cells;
+    for_places(shape, [&](std::size_t out, std::size_t place) {
+        std::size_t k = out;  // of order 0, those of the others come behind it
+        if (shape.sides > 1) k += out / side * (shape.orders - 1) * side;
+        for (std::size_t order = 0; order < shape.orders; ++order)
+            sums.energy[place] += layer.energy[k + order * side];
+        sums.squares[place] = spread.squares[out];
+        sums.reached[place] = spread.reached[out];
+        if (!spread.stretched.empty()) sums.stretched[place] = spread.stretched[out];
+        if (!spread.exact.empty()) sums.exact[place] = spread.exact[out];
+    });
+    return errors_of(sums);
 }
 
 Layer layer_of(const Incidence& light, const LayerSums& sums) {
@@ -101,11 +137,7 @@ Layer layer_of(const Incidence& light, const LayerSums& sums) {
 
 LayerSums sums_of(const Layer& layer, const SumShape& shape) {
     const LayerSpread& spread = layer.spread;
-    if (spread.squares.empty() || spread.reached.empty())
-        throw Error(
-            ErrorCode::InvalidInput,
-            "it does not hold what its errors come from (results of older versions do not): "
-            "measure it anew");
+    require_spread(spread);
     LayerSums sums(shape, spread.largest_batch);
     sums.done = spread.done;
     sums.rays = layer.rays;

@@ -22,5 +22,7 @@ LayerSums sums_of(const Layer& layer, const SumShape& shape);
 /// (formats/results/spared_layer.h): where it is to give other bits, those of earlier results must
 /// still be had.
 std::vector<float> errors_of(const LayerSums& sums);
+/// Those of sums_of(layer, shape), without making all of these. Likewise throws.
+std::vector<float> errors_of(const Layer& layer, const SumShape& shape);
 
 }  // namespace asperity

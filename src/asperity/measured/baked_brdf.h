@@ -10,6 +10,8 @@
 
 namespace asperity {
 
+struct Measurement;
+
 /// How finely bake_brdf tabulates; 0: as fine as the lobe needs, as given last, for isotropic BRDFs
 /// (more for a lobe below alpha 0.04) and for others.
 struct BakeSettings {
@@ -60,6 +62,12 @@ class BakedBrdf final : public Bsdf {
 /// BRDF"; takes below a second, several when not isotropic. Throws Error(Usage, "brdf") for other
 /// than 1 or 3 channels, Error(Usage, "theta_nodes" | "phi_nodes" | "resolution"), Error(Stopped).
 std::shared_ptr<const BakedBrdf> bake_brdf(const Bsdf& brdf, Run& run,
+                                           const BakeSettings& settings = {});
+
+/// The BRDF of a Measurement, between its layers as make_tabulated_brdf has it (tabulated.h) up to
+/// what the tables round: quicker than baking that, as the factors that keep the albedo are found
+/// once and not twice. Its errors besides those above are those of make_tabulated_brdf.
+std::shared_ptr<const BakedBrdf> bake_brdf(const Measurement& measurement, Run& run,
                                            const BakeSettings& settings = {});
 
 }  // namespace asperity

@@ -94,18 +94,31 @@ CellWeights::CellWeights(const Detector& detector, const LobeShape& shape, doubl
     }
 }
 
-double CellWeights::mean(const std::vector<double>& nodes, std::size_t row,
-                         std::size_t column) const {
+void CellWeights::means(const std::vector<double>& nodes, std::size_t row,
+                        std::span<double> means) const {
     // The first and the last row are their own neighbours, columns run round.
-    const std::array<std::size_t, 3> rows = {row == 0 ? row : row - 1, row,
-                                             row + 1 == rows_ ? row : row + 1};
-    const std::array<std::size_t, 3> columns = {(column + columns_ - 1) % columns_, column,
-                                                (column + 1) % columns_};
-    const Nine& nine = of(row, column);
-    double sum = 0;
-    for (std::size_t k = 0; k < 9; ++k)
-        sum += static_cast<double>(nine[k]) * nodes[rows[k / 3] * columns_ + columns[k % 3]];
-    return sum;
+    const std::array<const double*, 3> rows = {
+        nodes.data() + (row == 0 ? row : row - 1) * columns_, nodes.data() + row * columns_,
+        nodes.data() + (row + 1 == rows_ ? row : row + 1) * columns_};
+    const auto sum_at = [&](const Nine& nine, std::size_t left, std::size_t column,
+                            std::size_t right) {
+        double sum = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            sum += static_cast<double>(nine[3 * k]) * rows[k][left];
+            sum += static_cast<double>(nine[3 * k + 1]) * rows[k][column];
+            sum += static_cast<double>(nine[3 * k + 2]) * rows[k][right];
+        }
+        return sum;
+    };
+    const std::size_t last = columns_ - 1;
+    means[0] = sum_at(of(row, 0), last, 0, columns_ > 1 ? 1 : 0);
+    if (last > 0) means[last] = sum_at(of(row, last), last - 1, last, 0);
+    const Nine alike = weights_[0];
+    if (weights_.size() == 1) {
+        for (std::size_t c = 1; c < last; ++c) means[c] = sum_at(alike, c - 1, c, c + 1);
+    } else {
+        for (std::size_t c = 1; c < last; ++c) means[c] = sum_at(of(row, c), c - 1, c, c + 1);
+    }
 }
 
 double CellWeights::mean_of_shape(std::size_t row, std::size_t column) const {

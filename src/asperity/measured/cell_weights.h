@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace asperity {
@@ -23,7 +24,8 @@ class CellWeights {
     /// narrower than a cell: there columns are looked at until their means settle.
     CellWeights(const Detector& detector, const LobeShape& shape, double phi_i);
 
-    double mean(const std::vector<double>& nodes, std::size_t row, std::size_t column) const;
+    /// Over the cells of a row, of all nodes, row by row.
+    void means(const std::vector<double>& nodes, std::size_t row, std::span<double> means) const;
     /// Of the shape alone.
     double mean_of_shape(std::size_t row, std::size_t column) const;
 

@@ -56,6 +56,18 @@ CellGrid::CellGrid(const Detector& detector) : detector_(detector) {
     }
 }
 
+std::size_t CellGrid::row_below(double theta) const {
+    const std::size_t last = theta_nodes_.size() - 1;
+    const double share = detector_.kind() == DetectorKind::LatLong
+                             ? theta / (0.5 * kPi)
+                             : std::sin(theta) * std::sin(theta);
+    // The nodes are the authority: the guess may be a row off.
+    std::size_t row = std::min(static_cast<std::size_t>(share * static_cast<double>(last + 1)), last);
+    while (row > 0 && theta < theta_nodes_[row]) --row;
+    while (row < last && theta >= theta_nodes_[row + 1]) ++row;
+    return row;
+}
+
 CellBlend CellGrid::blend(Vec3 wo) const {
     const std::size_t rows = static_cast<std::size_t>(detector_.rows());
     const std::size_t columns = static_cast<std::size_t>(detector_.columns());
@@ -64,19 +76,17 @@ CellBlend CellGrid::blend(Vec3 wo) const {
     const double x = azimuth(wo) * static_cast<double>(columns) / (2 * kPi) + 0.5;
     const std::size_t right = static_cast<std::size_t>(x);
     const double t = x - static_cast<double>(right);
-    const std::size_t column1 = right % columns, column0 = (right + columns - 1) % columns;
+    const std::size_t column1 = right < columns ? right : right - columns;
+    const std::size_t column0 = column1 == 0 ? columns - 1 : column1 - 1;
 
     // The two rows round the polar angle.
     const double theta = std::min(polar_angle(wo), 0.5 * kPi);
-    std::size_t row = static_cast<std::size_t>(detector_.cell_of(wo)) / columns;
-    if (theta < theta_nodes_[row]) {
-        if (row == 0) {
-            const double s = theta / theta_nodes_[0];
-            const std::size_t pole = rows * columns;
-            return {{pole, pole, column0, column1}, {1 - s, 0, s * (1 - t), s * t}};
-        }
-        --row;
+    if (theta < theta_nodes_[0]) {
+        const double s = theta / theta_nodes_[0];
+        const std::size_t pole = rows * columns;
+        return {{pole, pole, column0, column1}, {1 - s, 0, s * (1 - t), s * t}};
     }
+    const std::size_t row = row_below(theta);
     const std::size_t cell0 = row * columns + column0, cell1 = row * columns + column1;
     if (row + 1 == rows) return {{cell0, cell1, cell0, cell1}, {1 - t, t, 0, 0}};
     const double s = (theta - theta_nodes_[row]) / (theta_nodes_[row + 1] - theta_nodes_[row]);
@@ -112,28 +122,33 @@ LayerTable::LayerTable(std::shared_ptr<const CellGrid> grid, const Measurement& 
 
 std::vector<double> LayerTable::nodes_of(const Measurement& measurement, const Layer& layer,
                                          int channel, const CellWeights& weights) const {
-    const int columns = grid_->detector().columns(), cells = grid_->detector().cells();
-    const auto row_of = [&](int cell) { return static_cast<std::size_t>(cell / columns); };
-    const auto column_of = [&](int cell) { return static_cast<std::size_t>(cell % columns); };
-    std::vector<double> nodes, shape, mean, error;
-    for (int cell = 0; cell < cells; ++cell) {
-        shape.push_back(weights.mean_of_shape(row_of(cell), column_of(cell)));
-        mean.push_back(measurement.brdf(layer, channel, cell));
-        error.push_back(
-            layer.stderr_energy.empty() ? 0.0 : measurement.brdf_stderr(layer, channel, cell));
-        nodes.push_back(mean.back() / shape.back());
+    const Detector& detector = grid_->detector();
+    const std::size_t rows = static_cast<std::size_t>(detector.rows());
+    const std::size_t columns = static_cast<std::size_t>(detector.columns());
+    const std::size_t cells = rows * columns;
+    std::vector<double> nodes(cells), shape(cells), mean(cells), error(cells, 0.0);
+    for (std::size_t k = 0; k < cells; ++k) {
+        const int cell = static_cast<int>(k);
+        shape[k] = weights.mean_of_shape(k / columns, k % columns);
+        mean[k] = measurement.brdf(layer, channel, cell);
+        if (!layer.stderr_energy.empty())
+            error[k] = measurement.brdf_stderr(layer, channel, cell);
+        nodes[k] = mean[k] / shape[k];
     }
+    std::vector<double> raised(cells), here(columns);
     for (int pass = 0; pass < kPasses; ++pass) {
-        std::vector<double> raised = nodes;
-        for (std::size_t k = 0; k < nodes.size(); ++k) {
-            // Raise the node by what the mean over the cell misses, beyond twice its error.
-            const int cell = static_cast<int>(k);
-            const double missing = mean[k] - weights.mean(nodes, row_of(cell), column_of(cell));
-            const double certain =
-                std::copysign(std::max(0.0, std::abs(missing) - 2 * error[k]), missing);
-            raised[k] = std::max(0.0, raised[k] + certain / shape[k]);
+        for (std::size_t row = 0; row < rows; ++row) {
+            weights.means(nodes, row, here);
+            for (std::size_t column = 0; column < columns; ++column) {
+                // Raise the node by what the mean over the cell misses, beyond twice its error.
+                const std::size_t k = row * columns + column;
+                const double missing = mean[k] - here[column];
+                const double certain =
+                    std::copysign(std::max(0.0, std::abs(missing) - 2 * error[k]), missing);
+                raised[k] = std::max(0.0, nodes[k] + certain / shape[k]);
+            }
         }
-        nodes = std::move(raised);
+        nodes.swap(raised);
     }
     return nodes;
 }
@@ -144,14 +159,15 @@ void LayerTable::build_distribution(const CellWeights& weights, const std::vecto
     const std::size_t columns = static_cast<std::size_t>(detector.columns());
     // Where no light left, spread the samples as from a diffuse surface.
     const std::vector<double> even(columns, 1.0);
-    std::vector<double> diffuse;
+    std::vector<double> diffuse, means(columns);
     cells_.resize(rows * columns);
     for (std::size_t row = 0; row < rows; ++row) {
         const std::span<double> part = std::span(cells_).subspan(row * columns, columns);
         const double size = detector.projected_solid_angle(static_cast<int>(row));
         double total = 0;
+        weights.means(f, row, means);
         for (std::size_t column = 0; column < columns; ++column) {
-            part[column] = weights.mean(f, row, column) * size;
+            part[column] = means[column] * size;
             total += part[column];
         }
         rows_.push_back(total);

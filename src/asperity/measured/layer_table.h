@@ -33,6 +33,9 @@ class CellGrid {
     CellBlend blend(Vec3 wo) const;
 
   private:
+    /// The last row whose node is not beyond `theta`; the first node is not.
+    std::size_t row_below(double theta) const;
+
     Detector detector_;
     std::vector<double> theta_nodes_;  ///< of the rows
 };

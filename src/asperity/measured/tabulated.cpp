@@ -4,6 +4,7 @@
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
 #include <asperity/core/parallel.h>
+#include <asperity/measured/baked_brdf.h>
 #include <asperity/measured/layer_table.h>
 #include <asperity/measured/lobe_guide.h>
 #include <asperity/measured/tabulated.h>
@@ -101,7 +102,9 @@ void check_stop(const Run& run) {
 /// See tabulated.h for what is interpolated how.
 class TabulatedBrdf final : public Bsdf {
   public:
+    /// Without normalise() until that is called.
     TabulatedBrdf(const Measurement& measurement, const Run& run);
+    void normalise(const Run& run);
 
     int channels() const override { return channels_; }
     std::vector<std::string> channel_names() const override { return channel_names_; }
@@ -122,7 +125,6 @@ class TabulatedBrdf final : public Bsdf {
     using Corners = std::array<Corner, 4>;
 
     void read_layers(const Measurement& measurement, const Run& run);
-    void normalise(const Run& run);
     Corners corners(double theta_i, double phi_i) const;
     double turn_of(Vec3 wi) const;
     double pdf_turned(const Corners& corners, Vec3 wi, Vec3 wo) const;
@@ -146,7 +148,6 @@ TabulatedBrdf::TabulatedBrdf(const Measurement& measurement, const Run& run)
       name_("tabulated:" + (measurement.surface_name.empty() ? std::string("measurement")
                                                              : measurement.surface_name)) {
     read_layers(measurement, run);
-    normalise(run);
 }
 
 void TabulatedBrdf::read_layers(const Measurement& measurement, const Run& run) {
@@ -175,17 +176,17 @@ void TabulatedBrdf::read_layers(const Measurement& measurement, const Run& run) 
             fmt::format("its layers do not form a grid: none at theta {:.6g}, phi {:.6g} degrees",
                         degrees(theta), degrees(phi)));
     };
-    if (thetas_.front() <= kNearNormal) {
-        const Layer& steepest = layer_at(thetas_.front(), phis_.front());
-        guide_ = LobeGuide(LayerTable(grid, measurement, steepest),
-                           from_spherical(thetas_.front(), phis_.front()));
-    }
     std::vector<const Layer*> layers;
     for (const double theta : thetas_)
         for (const double phi : phis_) layers.push_back(&layer_at(theta, phi));
     std::vector<std::optional<LayerTable>> tables(layers.size());
+    if (thetas_.front() <= kNearNormal) {
+        const LayerTable& steepest = tables[0].emplace(grid, measurement, *layers[0]);
+        guide_ = LobeGuide(steepest, from_spherical(thetas_.front(), phis_.front()));
+        if (guide_.is_known()) tables[0].reset();  // to be made over the guide
+    }
     parallel_for(layers.size(), run.threads(), [&](std::size_t k) {
-        if (!run.keep_going()) return;
+        if (!run.keep_going() || tables[k]) return;
         const Vec3 wi = from_spherical(thetas_[k / phis_.size()], phis_[k % phis_.size()]);
         const LobeShape shape = [&](Vec3 wo) { return guide_(wi, wo, wi + wo); };
         tables[k].emplace(grid, measurement, *layers[k], guide_.is_known() ? shape : nullptr);
@@ -346,7 +347,15 @@ void TabulatedBrdf::albedo(Vec3 wi, std::span<double> a) const {
 }  // namespace
 
 std::unique_ptr<Bsdf> make_tabulated_brdf(const Measurement& measurement, const Run& run) {
-    return std::make_unique<TabulatedBrdf>(measurement, run);
+    auto table = std::make_unique<TabulatedBrdf>(measurement, run);
+    table->normalise(run);
+    return table;
+}
+
+std::shared_ptr<const BakedBrdf> bake_brdf(const Measurement& measurement, Run& run,
+                                           const BakeSettings& settings) {
+    // Baking finds factors of its own, so those of normalise() would cancel.
+    return bake_brdf(TabulatedBrdf(measurement, run), run, settings);
 }
 
 std::unique_ptr<Bsdf> make_tabulated_brdf(const Measurement& measurement) {

@@ -37,13 +37,7 @@ std::vector<std::uint64_t> energy_of_all_orders(const Layer& layer, std::size_t 
 
 ResultFields::ResultFields(const Measurement& measurement, bool packed)
     : measurement_(measurement), packed_(packed) {
-    add_text("description", kDescription);
-    const auto format = static_cast<std::uint32_t>(kResultFormat);
-    add_values<std::uint32_t>("format", TensorType::U32, {1}, std::span(&format, 1));
-    add_text("experiment", to_text(measurement.experiment));
-    add_text("channel_names", channel_names_json(measurement));
-    add_text("surface", surface_json(measurement));
-    add_layers();
+    add_counted();
     add_spreads();
     add_text("provenance", provenance_json(measurement));
     sum_up();
@@ -52,6 +46,27 @@ ResultFields::ResultFields(const Measurement& measurement, bool packed)
         pack_large();
     }
     add_checksums();
+}
+
+ResultFields::ResultFields(const Measurement& measurement, CountedAlone)
+    : measurement_(measurement), packed_(false) {
+    add_counted();
+    sum_up();
+}
+
+std::string ResultFields::checksum_of(const Measurement& measurement) {
+    return ResultFields(measurement, CountedAlone()).checksum();
+}
+
+void ResultFields::add_counted() {
+    const Measurement& measurement = measurement_;
+    add_text("description", kDescription);
+    const auto format = static_cast<std::uint32_t>(kResultFormat);
+    add_values<std::uint32_t>("format", TensorType::U32, {1}, std::span(&format, 1));
+    add_text("experiment", to_text(measurement.experiment));
+    add_text("channel_names", channel_names_json(measurement));
+    add_text("surface", surface_json(measurement));
+    add_layers();
 }
 
 void ResultFields::add_layers() {
@@ -241,7 +256,7 @@ void ResultFields::sum_up() {
     for (const TensorBlock& block : blocks_)
         if (in_checksum(block.name))
             counted.push_back(block.name == "format" ? format_digest() : digest_of(block));
-    checksum_ = checksum_of(counted);
+    checksum_ = io::checksum_of(counted);
 }
 
 void ResultFields::replace(std::string_view name, TensorBlock block) {

@@ -36,6 +36,8 @@ class ResultFields {
     /// `packed`: large fields are to be stored packed, without what follows from the rest
     /// (SparedLayer), which takes some time.
     explicit ResultFields(const Measurement& measurement, bool packed = false);
+    /// Only those that depend on nothing but the experiment, which is enough for the checksum.
+    static std::string checksum_of(const Measurement& measurement);
     ResultFields(const ResultFields&) = delete;
     ResultFields& operator=(const ResultFields&) = delete;
 
@@ -43,6 +45,10 @@ class ResultFields {
     const std::string& checksum() const { return checksum_; }
 
   private:
+    struct CountedAlone {};
+    ResultFields(const Measurement& measurement, CountedAlone alone);
+    void add_counted();
+
     void add_text(const char* name, std::string text);
     /// One value per layer.
     template <typename T>

@@ -357,7 +357,7 @@ bool looks_like_result(const std::string& path) {
 }
 
 std::string checksum(const Measurement& measurement) {
-    return ResultFields(measurement).checksum();
+    return ResultFields::checksum_of(measurement);
 }
 
 }  // namespace asperity::io

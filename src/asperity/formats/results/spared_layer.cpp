@@ -226,7 +226,7 @@ SparedLayer spare(const Layer& layer, const SumShape& shape) {
         spared.groups[out] = folded(right - guessed);
         return right;
     });
-    const std::vector<float> errors = errors_of(sums_of(layer, shape));
+    const std::vector<float> errors = errors_of(layer, shape);
     spared.errors_follow =
         errors.size() == layer.stderr_energy.size() &&
         std::memcmp(errors.data(), layer.stderr_energy.data(), errors.size() * sizeof(float)) == 0;
@@ -253,7 +253,7 @@ void restore(Layer& layer, const SparedLayer& spared, const SumShape& shape) {
         layer.spread.exact[k] = spared.known[k] * spared.known_unit;
         layer.energy[k] += layer.spread.exact[k];
     }
-    if (spared.errors_follow) layer.stderr_energy = errors_of(sums_of(layer, shape));
+    if (spared.errors_follow) layer.stderr_energy = errors_of(layer, shape);
 }
 
 }  // namespace asperity::io
