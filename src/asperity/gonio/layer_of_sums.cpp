@@ -52,31 +52,37 @@ std::vector<float> errors_of(const LayerSums& sums) {
 
 std::vector<float> errors_of(const Layer& layer, const SumShape& shape) {
     const LayerSpread& spread = layer.spread;
+    if (shape.sides > 1 || shape.elements > 1) return errors_of(sums_of(layer, shape));
     require_spread(spread);
-    // They know nothing of orders, groups and reflections.
+    // Each channel by itself, where its cells stand side by side already. Errors know nothing of
+    // orders, groups and reflections.
     LayerSums sums;
-    sums.shape = shape;
-    sums.shape.orders = 1;
+    sums.shape = {.cells = shape.cells, .columns = shape.columns};
     sums.largest_batch = spread.largest_batch;
     sums.done = spread.done;
-    const std::size_t size = spread.squares.size();
-    sums.energy.resize(size);
-    sums.squares.resize(size);
-    sums.reached.resize(size);
-    sums.stretched.resize(spread.stretched.size());
-    sums.exact.resize(spread.exact.size());
-    const std::size_t side = shape.values() * shape.cells;
-    for_places(shape, [&](std::size_t out, std::size_t place) {
-        std::size_t k = out;  // of order 0, those of the others come behind it
-        if (shape.sides > 1) k += out / side * (shape.orders - 1) * side;
-        for (std::size_t order = 0; order < shape.orders; ++order)
-            sums.energy[place] += layer.energy[k + order * side];
-        sums.squares[place] = spread.squares[out];
-        sums.reached[place] = spread.reached[out];
-        if (!spread.stretched.empty()) sums.stretched[place] = spread.stretched[out];
-        if (!spread.exact.empty()) sums.exact[place] = spread.exact[out];
-    });
-    return errors_of(sums);
+    std::vector<float> errors;
+    errors.reserve(spread.squares.size());
+    for (std::size_t channel = 0; channel < shape.channels; ++channel) {
+        const auto part_of = [&](const auto& numbers, auto& part) {
+            if (numbers.empty()) return;
+            const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(channel * shape.cells);
+            part.assign(begin, begin + static_cast<std::ptrdiff_t>(shape.cells));
+        };
+        part_of(layer.energy, sums.energy);
+        for (std::size_t order = 1; order < shape.orders; ++order) {
+            const std::uint64_t* energy =
+                layer.energy.data() + (order * shape.channels + channel) * shape.cells;
+            for (std::size_t cell = 0; cell < shape.cells; ++cell)
+                sums.energy[cell] += energy[cell];
+        }
+        part_of(spread.squares, sums.squares);
+        part_of(spread.reached, sums.reached);
+        part_of(spread.stretched, sums.stretched);
+        part_of(spread.exact, sums.exact);
+        for (const LayerSums::Estimate& e : cell_estimates(sums))
+            errors.push_back(static_cast<float>(e.error));
+    }
+    return errors;
 }
 
 Layer layer_of(const Incidence& light, const LayerSums& sums) {

@@ -178,6 +178,32 @@ TEST(BakedBrdfTest, AMeasurementKeepsItsOwnAlbedo) {
     EXPECT_EQ(baked->name(), table->name());
 }
 
+TEST(BakedBrdfTest, AMeasurementIsBakedAsItsTableIs) {
+    // Its table goes without the factors that keep the albedo between layers: baking has its own.
+    Experiment e;
+    e.detector.resolution = 64;
+    e.illumination.layers = 8;
+    for (const char* spec : {"ggx:alpha=0.4,f0=0.9/0.6/0.3", "beckmann:alpha=0.1"}) {
+        const Measurement m = test::measurement_of(*parse_brdf_spec(spec), e);
+        const auto table = make_tabulated_brdf(m);
+        asperity::Run run(2);
+        const auto baked = bake_brdf(m, run);
+        EXPECT_EQ(baked->name(), table->name());
+        const std::size_t channels = static_cast<std::size_t>(table->channels());
+        std::array<double, 3> albedo{};
+        for (const double theta_deg : {0.0, 17.0, 40.0, 71.0}) {
+            const Vec3 wi = from_spherical(radians(theta_deg), 0);
+            table->albedo(wi, std::span(albedo).first(channels));
+            const Hemisphere sums = integrate(*baked, *table, wi, 150);
+            for (std::size_t c = 0; c < channels; ++c)
+                EXPECT_NEAR(sums.first[c], albedo[c], 1e-3) << spec << " " << theta_deg;
+            // No further from the table than what is baked from that
+            const Hemisphere indirect = integrate(*bake(*table), *table, wi, 150);
+            EXPECT_LT(sums.difference, indirect.difference + 1e-3) << spec << " " << theta_deg;
+        }
+    }
+}
+
 TEST(BakedBrdfTest, OneLookSaysTheSame) {
     const auto baked = bake("cook-torrance:roughness=0.4,metallic=1,albedo=0.9/0.6/0.2", kCoarse);
     const Vec3 wi = from_spherical(0.9, 2), wo = from_spherical(0.4, 5);

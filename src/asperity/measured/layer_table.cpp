@@ -62,7 +62,8 @@ std::size_t CellGrid::row_below(double theta) const {
                              ? theta / (0.5 * kPi)
                              : std::sin(theta) * std::sin(theta);
     // The nodes are the authority: the guess may be a row off.
-    std::size_t row = std::min(static_cast<std::size_t>(share * static_cast<double>(last + 1)), last);
+    std::size_t row =
+        std::min(static_cast<std::size_t>(share * static_cast<double>(last + 1)), last);
     while (row > 0 && theta < theta_nodes_[row]) --row;
     while (row < last && theta >= theta_nodes_[row + 1]) ++row;
     return row;
@@ -131,8 +132,7 @@ std::vector<double> LayerTable::nodes_of(const Measurement& measurement, const L
         const int cell = static_cast<int>(k);
         shape[k] = weights.mean_of_shape(k / columns, k % columns);
         mean[k] = measurement.brdf(layer, channel, cell);
-        if (!layer.stderr_energy.empty())
-            error[k] = measurement.brdf_stderr(layer, channel, cell);
+        if (!layer.stderr_energy.empty()) error[k] = measurement.brdf_stderr(layer, channel, cell);
         nodes[k] = mean[k] / shape[k];
     }
     std::vector<double> raised(cells), here(columns);

@@ -56,6 +56,7 @@ class Guess {
           spared_(spared),
           shape_(shape),
           grid_(shape),
+          batches_(std::max<std::uint64_t>(1, layer.spread.done.count())),
           paths_(over_orders(energy, shape.channels * shape.cells)),
           of_block_(by_block(paths_)),
           known_of_block_(by_block(spared.known)) {}
@@ -66,17 +67,18 @@ class Guess {
     Wide known_squares(std::size_t k) const {
         if (spared_.known.empty() || spared_.known[k] == 0) return 0;
         const std::uint64_t units = spared_.known[k];
+        const Wide of_known = Wide{units} * units * spared_.known_squares;
+        if (paths_[k] == 0) return of_known;
         const Wide energy = Wide{units} * spared_.known_unit;
-        return Wide{units} * units * spared_.known_squares +
-               2 * energy * paths_[k] / std::max<std::uint64_t>(1, layer_.spread.done.count());
+        return of_known + 2 * energy * paths_[k] / batches_;
     }
     /// The part of paths; `before` is that of the channel before.
     Wide squares(std::size_t k, Wide before) const {
         const std::uint32_t reached = layer_.spread.reached[k];
         if (reached == 0) return 0;
         const Wide energy = paths_[k];
-        if (reached == 1 || k < shape_.cells || paths_[k - shape_.cells] == 0)
-            return energy * energy / reached;
+        if (reached == 1) return energy * energy;
+        if (k < shape_.cells || paths_[k - shape_.cells] == 0) return energy * energy / reached;
         const double ratio =
             static_cast<double>(paths_[k]) / static_cast<double>(paths_[k - shape_.cells]);
         return whole(static_cast<double>(static_cast<SignedWide>(before)) * ratio * ratio);
@@ -170,6 +172,7 @@ class Guess {
     const SparedLayer& spared_;
     const SumShape& shape_;
     CoarseGrid grid_;
+    std::uint64_t batches_;
     std::vector<std::uint64_t> paths_, of_block_, known_of_block_;
 };
 
