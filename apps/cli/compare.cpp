@@ -6,6 +6,7 @@
 #include "help.h"
 #include "options.h"
 #include "output_path.h"
+#include "report.h"
 #include "report_json.h"
 #include "table.h"
 #include "verbs.h"
@@ -16,6 +17,7 @@
 #include <asperity/core/run.h>
 #include <asperity/formats/images/image_reader.h>
 #include <asperity/formats/results/result_file.h>
+#include <asperity/gonio/measurement_head.h>
 #include <asperity/measured/compare.h>
 #include <asperity/render/film.h>
 
@@ -24,7 +26,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace asperity::cli {
 
@@ -38,7 +42,9 @@ std::string closing() {
            "models. Two pictures (.exr, .hdr) of one size are compared in linear light, pixel by\n"
            "pixel. L1 is the integral of |fa - fb| cos(theta) over the hemisphere (0 equal, 2\n"
            "apart); noise is what it would be from the error bars alone; RMS is of the same\n"
-           "difference, in 1/sr. Of two results with other layers or cells, B is interpolated to\n"
+           "difference, in 1/sr. (12) is the standard error of the last digits, from\n"
+           "batches, as cells beside each other err together. Of two results with other layers or "
+           "cells, B is interpolated to\n"
            "those of A, its lobes moving with the light.\n"
            "\n"
            "Examples\n"
@@ -74,20 +80,38 @@ Comparison swapped(Comparison comparison) {
     return comparison;
 }
 
+/// With its error in brackets, "0.0123(4)"; as `plain` formats it where it has none.
+std::string told(double value, double error, fmt::format_string<double&> plain) {
+    return error == 0 ? fmt::format(plain, value) : with_error(value, error);
+}
+
 std::string text_of_comparison(const Comparison& comparison) {
     std::string text = fmt::format("A: {}\nB: {}\n", comparison.name_a, comparison.name_b);
     Table table({"layer", "theta_i", "phi_i", "albedo A", "albedo B", "A - B", "L1", "noise",
                  "RMS [1/sr]"});
+    bool errors = false, unknown = false;
     for (const LayerComparison& c : comparison.layers) {
         table.add({std::to_string(c.number), fmt::format("{:.4g}°", degrees(c.theta_i)),
                    fmt::format("{:.4g}°", degrees(c.phi_i)), fmt::format("{:.5f}", c.albedo_a),
-                   fmt::format("{:.5f}", c.albedo_b), fmt::format("{:+.5f}", c.albedo_difference),
-                   fmt::format("{:.4f}", c.l1), fmt::format("{:.4f}", c.l1_noise),
-                   fmt::format("{:.4g}", c.rms)});
+                   fmt::format("{:.5f}", c.albedo_b),
+                   (c.albedo_difference_error != 0 && c.albedo_difference >= 0 ? "+" : "") +
+                       told(c.albedo_difference, c.albedo_difference_error, "{:+.5f}"),
+                   told(c.l1, c.l1_error, "{:.4f}"), fmt::format("{:.4f}", c.l1_noise),
+                   told(c.rms, c.rms_error, "{:.4g}")});
+        unknown = unknown || std::isnan(c.l1_error);
+        errors = errors || c.l1_error > 0;
     }
-    return text + table.text() +
-           fmt::format("mean L1 {:.4f}, mean RMS {:.4g} 1/sr, largest albedo difference {:.5f}\n",
-                       comparison.mean_l1, comparison.mean_rms, comparison.max_albedo_difference);
+    text += table.text() +
+            fmt::format("mean L1 {}, mean RMS {} 1/sr, largest albedo difference {:.5f}\n",
+                        told(comparison.mean_l1, comparison.mean_l1_error, "{:.4f}"),
+                        told(comparison.mean_rms, comparison.mean_rms_error, "{:.4g}"),
+                        comparison.max_albedo_difference);
+    if (errors) text += "(12): standard error of the last digits, from batches\n";
+    if (unknown)
+        text +=
+            "(?): a result does not hold what errors of several cells come from: measure it "
+            "anew\n";
+    return text;
 }
 
 bool is_picture(const std::string& text) {
@@ -147,20 +171,34 @@ class CompareVerb {
         const Experiment experiment = experiment_.read();
         validate(experiment);
         const int threads = Run(threads_.threads()).threads();
-        const Comparison comparison =
-            compare_sides(open_side(text_of(a_)), open_side(text_of(b_)), experiment, threads);
+        const Side a = open_side(text_of(a_)), b = open_side(text_of(b_));
+        const Comparison comparison = compare_sides(a, b, experiment, threads);
+        const std::vector<std::string> lobes = notes_on_lobes(a, b);
         if (json_) {
             Json json = to_json(comparison);
             if (!note_.empty()) json["note"] = note_;
+            if (!lobes.empty()) json["lobes"] = lobes;
             write_json(json);
         } else {
             write_out(text_of_comparison(comparison));
             if (!note_.empty()) write_out("note: " + note_ + "\n");
+            for (const std::string& note : lobes) write_out("note: " + note + "\n");
         }
         return 0;
     }
 
   private:
+    /// Of sides whose lobes are told by too few cells.
+    static std::vector<std::string> notes_on_lobes(const Side& a, const Side& b) {
+        std::vector<std::string> notes;
+        for (const auto& [name, side] : {std::pair{"A", &a}, {"B", &b}}) {
+            if (!side->measurement) continue;
+            const std::string note = narrow_lobes(*side->measurement);
+            if (!note.empty()) notes.push_back(fmt::format("{}: {}", name, note));
+        }
+        return notes;
+    }
+
     int compare_pictures() const {
         if (experiment_.any_given())
             throw Error(ErrorCode::Usage,
@@ -180,7 +218,8 @@ class CompareVerb {
     Comparison compare_measurements(const Measurement& a, const Measurement& b, int threads) {
         const std::string why = unlike(a, b);
         if (why.empty()) return compare(a, b);
-        note_ = why + ": B is interpolated between its layers, noise is that of A alone";
+        note_ =
+            why + ": B is interpolated between its layers, noise and errors are those of A alone";
         return compare_between_layers(a, b, Run(threads));
     }
 

@@ -38,9 +38,9 @@ std::string closing() {
            brdf_spec_help() +
            "Free are a model's widths and colours; a key that is given, and the facets' "
            "reflectance\n"
-           "of the run, stay. Errors are standard errors, larger where the model does not fit; "
-           "the\n"
-           "blocks of cells count as independent. chi2/dof near 1: as good as the data. L1 is the\n"
+           "of the run, stay. Errors are standard errors from batches, larger where the model "
+           "does\n"
+           "not fit. chi2/dof near 1: as good as the data. L1 is the\n"
            "integral of |f - f of the model| cos(theta) as a share of the albedo, noise what the\n"
            "error bars alone would give.\n"
            "\n"
@@ -239,6 +239,8 @@ class FitVerb {
                      {"metric", fit_metric_name(report.metric)},
                      {"layers", data.layers.size()},
                      {"blocks", data.blocks.size()},
+                     {"errors_from_batches", data.has_batches()},
+                     {"design_effect", data.design_effect},
                      {"verdict", report.verdict},
                      {"note", report.note},
                      {"hint", hint_},

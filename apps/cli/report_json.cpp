@@ -11,6 +11,7 @@
 #include <asperity/gonio/noise_shares.h>
 #include <asperity/surface/surface_figures.h>
 
+#include <cmath>
 #include <span>
 
 namespace asperity::cli {
@@ -82,6 +83,11 @@ Json layer_json(const Measurement& m, const Layer& layer) {
     return json;
 }
 
+/// null where it is not known.
+Json number_or_null(double value) {
+    return std::isfinite(value) ? Json(value) : Json();
+}
+
 // A setting that is left open is null.
 Json json_of(std::monostate) {
     return nullptr;
@@ -147,19 +153,25 @@ Json to_json(const Comparison& comparison) {
     json["a"] = comparison.name_a;
     json["b"] = comparison.name_b;
     json["mean_l1"] = comparison.mean_l1;
+    json["mean_l1_stderr"] = number_or_null(comparison.mean_l1_error);
     json["mean_rms"] = comparison.mean_rms;
+    json["mean_rms_stderr"] = number_or_null(comparison.mean_rms_error);
     json["max_albedo_difference"] = comparison.max_albedo_difference;
     json["layers"] = Json::array();
     for (const LayerComparison& layer : comparison.layers) {
-        json["layers"].push_back({{"number", layer.number},
-                                  {"theta_deg", degrees(layer.theta_i)},
-                                  {"phi_deg", degrees(layer.phi_i)},
-                                  {"albedo_a", layer.albedo_a},
-                                  {"albedo_b", layer.albedo_b},
-                                  {"albedo_difference", layer.albedo_difference},
-                                  {"l1", layer.l1},
-                                  {"l1_noise", layer.l1_noise},
-                                  {"rms", layer.rms}});
+        json["layers"].push_back(
+            {{"number", layer.number},
+             {"theta_deg", degrees(layer.theta_i)},
+             {"phi_deg", degrees(layer.phi_i)},
+             {"albedo_a", layer.albedo_a},
+             {"albedo_b", layer.albedo_b},
+             {"albedo_difference", layer.albedo_difference},
+             {"albedo_difference_stderr", number_or_null(layer.albedo_difference_error)},
+             {"l1", layer.l1},
+             {"l1_stderr", number_or_null(layer.l1_error)},
+             {"l1_noise", layer.l1_noise},
+             {"rms", layer.rms},
+             {"rms_stderr", number_or_null(layer.rms_error)}});
     }
     return json;
 }

@@ -49,6 +49,7 @@
 #include <asperity/formats/read_file.h>
 #include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/angles_of_lobe.h>
+#include <asperity/gonio/cell_errors.h>
 #include <asperity/gonio/experiment.h>
 #include <asperity/gonio/experiment_params.h>
 #include <asperity/gonio/experiment_text.h>

@@ -70,10 +70,15 @@ struct Fit {
 /// that the model expects (FitData::spread), found anew three times: weights by the rays that were
 /// counted would draw everything down.
 ///
-/// Errors are those of the parameters where chi^2 rises by its own mean, larger where the model
-/// does not fit: times sqrt(chi^2/dof) above 1. Blocks count as independent; the channels of a ray
-/// are not, and count as one. Same result for any number of threads. Throws Error(Usage, ...) for a
-/// model that the data do not go with.
+/// Errors of parameters have two parts. That of the light comes from batches, which tell what all
+/// blocks of a layer do together (CellErrors); data without batches count blocks as independent and
+/// the channels of a ray as one. That of the model is (J^T J)^-1 (chi^2/dof - 1), where it fits
+/// worse than the errors allow: blocks are taken to be missed each for itself, so it is a hint and
+/// no interval of a class of surfaces; for that measure many (`surfaces`), 48 and more, as 16
+/// batches know the weights of blocks so badly that errors are too small by a sixth. Variances of
+/// blocks of several cells are those of batches, so chi^2/dof is 1 in the mean for a true model.
+/// Same result for any number of threads. Throws Error(Usage, ...) for a model that the data do not
+/// go with.
 Fit fit_model(const FitData& data, const FreeModel& model, FitMetric metric, int threads);
 
 /// All that `settings` ask for; see fit_models().

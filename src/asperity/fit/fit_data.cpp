@@ -5,6 +5,7 @@
 #include <asperity/core/parallel.h>
 #include <asperity/fit/fit_data.h>
 #include <asperity/fit/lobe_blocks.h>
+#include <asperity/gonio/cell_errors.h>
 #include <asperity/gonio/experiment.h>
 #include <asperity/measured/compare.h>
 
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -66,6 +68,94 @@ void believe_least(detail::LayerEnergies& values, const Layer& layer, int channe
     }
 }
 
+/// The part that light of one reflection has in the errors of all, see energies_of().
+std::vector<double> error_share(const Measurement& m, const Layer& layer, FitLight light) {
+    std::vector<double> share;
+    for (int channel = 0; light == FitLight::Single && channel < m.channels(); ++channel)
+        for (int cell = 0; cell < m.detector.cells(); ++cell) {
+            const double all = m.energy(layer, channel, cell);
+            share.push_back(all > 0 ? std::sqrt(m.energy(layer, 0, channel, cell) / all) : 0.0);
+        }
+    return share;
+}
+
+std::vector<int> cells_of(const FitBlock& block, int columns) {
+    std::vector<int> cells;
+    for (int row = block.row0; row < block.row1; ++row)
+        for (int column = block.column0; column < block.column1; ++column)
+            cells.push_back(row * columns + column);
+    return cells;
+}
+
+/// Variance of blocks of several cells as their batches tell it, and as their cells would if they
+/// knew nothing of each other; apart by the number of cells, to powers of two. One block has 16
+/// groups of batches, too few to tell its own.
+class DesignEffects {
+  public:
+    void add(const FitBlock& block, const Measurement& m, const Layer& layer,
+             const CellErrors& errors) {
+        const std::vector<int> cells = cells_of(block, m.detector.columns());
+        if (cells.size() < 2) return;
+        Sums& sums = sums_[size_class(cells.size())];
+        for (int c = 0; c < m.channels(); ++c) {
+            const double error = errors.error_of_cells(static_cast<std::size_t>(c), cells);
+            sums.found += error * error;
+            for (const int cell : cells) {
+                const double own = double{
+                    layer.stderr_energy[static_cast<std::size_t>(c * m.detector.cells() + cell)]};
+                sums.apart += own * own;
+            }
+        }
+        ++sums.blocks;
+    }
+
+    double of(const FitBlock& block) const {
+        const int cells = (block.row1 - block.row0) * (block.column1 - block.column0);
+        return cells < 2 ? 1.0 : ratio(sums_[size_class(static_cast<std::size_t>(cells))]);
+    }
+
+  private:
+    static constexpr int kFewest = 4;  ///< blocks, of 15 degrees of freedom each
+    struct Sums {
+        double found = 0, apart = 0;
+        int blocks = 0;
+    };
+    static std::size_t size_class(std::size_t cells) {
+        return static_cast<std::size_t>(std::bit_width(cells));
+    }
+    static double ratio(const Sums& sums) {
+        const bool told = sums.blocks >= kFewest && sums.found > 0 && sums.apart > 0;
+        return told && std::isfinite(sums.found) ? sums.found / sums.apart : 1.0;
+    }
+
+    std::array<Sums, 65> sums_{};
+};
+
+/// Takes variances of blocks of several cells from batches.
+void tell_blocks_from_batches(FitData& data, const Measurement& m,
+                              const std::vector<const Layer*>& layers) {
+    const auto channels = static_cast<std::size_t>(data.channels);
+    double before = 0, after = 0;
+    for (std::size_t l = 0; l < layers.size(); ++l) {
+        const FitLayer& fitted = data.layers[l];
+        const std::size_t end = fitted.first_block + fitted.blocks;
+        DesignEffects effects;
+        for (std::size_t b = fitted.first_block; b < end; ++b)
+            effects.add(data.blocks[b], m, *layers[l], *fitted.errors);
+        for (std::size_t b = fitted.first_block; b < end; ++b) {
+            const double effect = effects.of(data.blocks[b]);
+            const bool several = data.blocks[b].row1 - data.blocks[b].row0 > 1 ||
+                                 data.blocks[b].column1 - data.blocks[b].column0 > 1;
+            for (std::size_t k = b * channels; k < (b + 1) * channels; ++k) {
+                before += several ? data.spread[k] * data.energy[k] : 0.0;
+                data.spread[k] *= effect;
+                after += several ? data.spread[k] * data.energy[k] : 0.0;
+            }
+        }
+    }
+    if (before > 0) data.design_effect = after / before;
+}
+
 bool any(const std::vector<double>& values) {
     for (const double value : values)
         if (value > 0) return true;
@@ -114,14 +204,21 @@ FitData fit_data(const Measurement& m, FitLight light, double last_theta) {
         if (!here && errors) believe_least(values.back(), layer, data.channels);
     }
     errors = errors && some;
+    const bool batches = errors && std::all_of(m.layers.begin(), m.layers.end(), CellErrors::known);
+    std::vector<const Layer*> fitted;
     for (std::size_t k = 0; k < m.layers.size(); ++k) {
         const Layer& layer = m.layers[k];
         if (layer.theta_i >= last_theta || !any(values[k].energy)) continue;
         if (!errors) values[k].variance.clear();
-        detail::append_blocks(
-            data, {layer.theta_i, layer.phi_i, from_spherical(layer.theta_i, layer.phi_i), 0, 0},
-            values[k], rows_below(data.detector, last_theta));
+        FitLayer added = {layer.theta_i, layer.phi_i, from_spherical(layer.theta_i, layer.phi_i)};
+        if (batches) {
+            added.errors = std::make_shared<const CellErrors>(m, layer);
+            added.error_share = error_share(m, layer, light);
+        }
+        detail::append_blocks(data, added, values[k], rows_below(data.detector, last_theta));
+        fitted.push_back(&layer);
     }
+    if (batches) tell_blocks_from_batches(data, m, fitted);
     if (data.has_errors()) data.errors_lack = missing_in_errors(m);
     require_layers(data);
     return data;

@@ -4,11 +4,15 @@
 #include <asperity/bsdf/bsdf.h>
 #include <asperity/gonio/measurement.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace asperity {
+
+class CellErrors;
 
 /// Which light of a measurement a model is fitted to.
 enum class FitLight {
@@ -34,6 +38,12 @@ struct FitLayer {
     double theta_i = 0, phi_i = 0;
     Vec3 wi;
     std::size_t first_block = 0, blocks = 0;
+
+    /// Errors of what is told from several cells; nullptr where they are not known.
+    std::shared_ptr<const CellErrors> errors = nullptr;
+    /// By how much an error of all light is one of the light fitted to, [channel * cells + cell];
+    /// empty: it is the same.
+    std::vector<double> error_share = {};
 };
 
 /// What models are fitted to: energies of blocks of cells, with their errors.
@@ -56,11 +66,21 @@ struct FitData {
     std::vector<double> energy;
     /// Variance over energy around each block, which for rays of one weight is that weight: times
     /// what a model expects there it is the variance of the block. Empty: errors are not known.
+    /// Of blocks of several cells from batches, where layers tell: `design_effect` is their
+    /// variance over what it were if cells knew nothing of each other, in the mean over these
+    /// blocks.
     std::vector<double> spread;
+    double design_effect = 1;
 
     /// What the errors do not hold, a sentence; empty where they hold all.
     std::string errors_lack;
 
+    /// Errors of what is told from many blocks are known, from batches.
+    bool has_batches() const {
+        return has_errors() && std::all_of(layers.begin(), layers.end(), [](const FitLayer& layer) {
+                   return layer.errors != nullptr;
+               });
+    }
     bool has_errors() const { return !spread.empty(); }
 };
 

@@ -1,11 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/fit/residuals.h>
+#include <asperity/gonio/cell_errors.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace asperity::detail {
 namespace {
+
+/// Derivative of shown().
+double shown_slope(FitMetric metric, double v) {
+    switch (metric) {
+        case FitMetric::Log:
+            return 1 / (1 + v);
+        case FitMetric::CubeRoot:
+            return v > 0 ? 1 / (3 * std::cbrt(v * v)) : 0.0;
+        case FitMetric::Auto:
+        case FitMetric::Chi2:
+        case FitMetric::L2:
+            break;
+    }
+    return 1;
+}
 
 /// Variance of block and channel k for a model that expects `energy` there; where it expects much
 /// less than there is, or less than a ray, its guess is not believed.
@@ -79,6 +95,47 @@ std::vector<double> Residuals::of_energy(const std::vector<double>& energy) cons
         residuals[k] = weights_[k] * (shown(metric_, v) - shown_[k]);
     }
     return residuals;
+}
+
+std::vector<double> Residuals::slopes() const {
+    const auto channels = static_cast<std::size_t>(data_.channels);
+    std::vector<double> slopes(weights_.size());
+    for (std::size_t k = 0; k < slopes.size(); ++k) {
+        const double solid_angle = data_.blocks[k / channels].solid_angle;
+        slopes[k] = weights_[k] * shown_slope(metric_, data_.energy[k] / solid_angle) / solid_angle;
+    }
+    return slopes;
+}
+
+std::vector<double> score_covariances(const Residuals& residuals,
+                                      const std::vector<std::vector<double>>& jacobian) {
+    const FitData& data = residuals.data();
+    const std::vector<double> slopes = residuals.slopes();
+    const auto channels = static_cast<std::size_t>(data.channels);
+    const auto cells = static_cast<std::size_t>(data.detector.cells());
+    const auto columns = static_cast<std::size_t>(data.detector.columns());
+    std::vector<double> sum(jacobian.size() * jacobian.size());
+    std::vector<std::vector<double>> weights(jacobian.size());
+    for (const FitLayer& layer : data.layers) {
+        for (std::vector<double>& w : weights) w.assign(channels * cells, 0.0);
+        for (std::size_t b = layer.first_block; b < layer.first_block + layer.blocks; ++b) {
+            const FitBlock& block = data.blocks[b];
+            for (std::size_t c = 0; c < channels; ++c)
+                for (int row = block.row0; row < block.row1; ++row)
+                    for (int column = block.column0; column < block.column1; ++column) {
+                        const std::size_t k = c * cells + static_cast<std::size_t>(row) * columns +
+                                              static_cast<std::size_t>(column);
+                        const double slope =
+                            slopes[b * channels + c] *
+                            (layer.error_share.empty() ? 1.0 : layer.error_share[k]);
+                        for (std::size_t p = 0; p < weights.size(); ++p)
+                            weights[p][k] = slope * jacobian[p][b * channels + c];
+                    }
+        }
+        const std::vector<double> of_layer = layer.errors->covariances(weights);
+        for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += of_layer[k];
+    }
+    return sum;
 }
 
 double chi2_per_dof(const FitData& data, const std::vector<double>& energy, std::size_t params) {

@@ -17,6 +17,11 @@ class Residuals {
     std::size_t size() const { return data_.energy.size(); }
     std::size_t params() const { return model_.free.size(); }
     const FreeModel& model() const { return model_; }
+    const FitData& data() const { return data_; }
+
+    /// By how much each residual falls where its energy in the data grows; 0 where a cube root has
+    /// no slope.
+    std::vector<double> slopes() const;
 
     /// For Chi2: variances from now on as a model of these energies expects them. Before, residuals
     /// are those of Freeman and Tukey 1950, sqrt(n) + sqrt(n + 1) - sqrt(4 m + 1) for n rays where
@@ -56,8 +61,19 @@ struct Solution {
 /// set.
 Solution solve(const Residuals& residuals, const std::vector<double>& start, double precision);
 
-/// Sets errors and at_end: the square roots of the diagonal of (J^T J)^-1, with J by the parameters
-/// that are not at an end, times `scale`.
-void set_errors(const Residuals& residuals, Solution& solution, double scale);
+/// Covariances of J^T r by the errors of the data, which batches tell of all blocks of a layer at
+/// once; `jacobian` [parameter][residual]. Of data that have batches.
+std::vector<double> score_covariances(const Residuals& residuals,
+                                      const std::vector<std::vector<double>>& jacobian);
+
+/// Sets errors and at_end, with J by the parameters that are not at an end: square roots of the
+/// diagonal of (J^T J)^-1 times noise + misfit, the mean squares of residuals that the data's
+/// errors and the model's give. Where batches tell errors of blocks together, their part is (J^T
+/// J)^-1 C (J^T J)^-1, C the covariance of J^T r (the sandwich of Huber 1967), and `noise` counts
+/// for nothing.
+struct MeanSquares {
+    double noise = 1, misfit = 0;
+};
+void set_errors(const Residuals& residuals, Solution& solution, const MeanSquares& mean);
 
 }  // namespace asperity::detail

@@ -103,6 +103,18 @@ Eigen::MatrixXd jacobian_of(const Residuals& residuals, const Solution& solution
     return jacobian;
 }
 
+/// Covariances of the coordinates by what batches tell of J^T r; `inverse` is (J^T J)^-1.
+Eigen::MatrixXd sandwich(const Residuals& residuals, const Eigen::MatrixXd& jacobian,
+                         const Eigen::MatrixXd& inverse) {
+    std::vector<std::vector<double>> columns;
+    for (Eigen::Index k = 0; k < jacobian.cols(); ++k)
+        columns.emplace_back(jacobian.col(k).begin(), jacobian.col(k).end());
+    const std::vector<double> scores = score_covariances(residuals, columns);
+    return inverse *
+           Eigen::Map<const Eigen::MatrixXd>(scores.data(), inverse.rows(), inverse.cols()) *
+           inverse;
+}
+
 }  // namespace
 
 Solution solve(const Residuals& residuals, const std::vector<double>& start, double precision) {
@@ -119,7 +131,7 @@ Solution solve(const Residuals& residuals, const std::vector<double>& start, dou
     return solution;
 }
 
-void set_errors(const Residuals& residuals, Solution& solution, double scale) {
+void set_errors(const Residuals& residuals, Solution& solution, const MeanSquares& mean) {
     const std::vector<FreeParam>& params = residuals.model().free;
     const Ranges ranges(params);
     solution.errors.assign(params.size(), std::numeric_limits<double>::quiet_NaN());
@@ -137,13 +149,16 @@ void set_errors(const Residuals& residuals, Solution& solution, double scale) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(square);
     constexpr double kFlat = 1e-12;
     if (!(axes.eigenvalues().minCoeff() > kFlat * axes.eigenvalues().maxCoeff())) return;
-    const Eigen::MatrixXd covariance = square.inverse();
+    const bool batches = residuals.data().has_batches();
+    const Eigen::MatrixXd inverse = square.inverse();
+    Eigen::MatrixXd covariance = inverse * (mean.misfit + (batches ? 0 : mean.noise));
+    if (batches) covariance += sandwich(residuals, jacobian, inverse);
     for (std::size_t j = 0; j < inside.size(); ++j) {
         const FreeParam& p = params[inside[j]];
         const double x = solution.values[inside[j]], u = p.coordinate(x), step = 1e-4;
         const double slope = (p.value(u + step) - p.value(u - step)) / (2 * step);
         const auto k = static_cast<Eigen::Index>(j);
-        solution.errors[inside[j]] = scale * slope * std::sqrt(covariance(k, k));
+        solution.errors[inside[j]] = slope * std::sqrt(covariance(k, k));
     }
 }
 

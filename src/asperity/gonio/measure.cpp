@@ -72,7 +72,8 @@ class Gonioreflectometer {
     bool prepare() {
         try {
             head_.surface = statistics(surface_, run_);
-            note_narrow_lobes(head_, layers_.theta_i());
+            if (std::string narrow = narrow_lobes(head_, layers_.theta_i()); !narrow.empty())
+                head_.notes.push_back(std::move(narrow));
             check_scale(surface_, head_.surface.min_height, head_.surface.max_height,
                         layers_.theta_i());
             if (listener_.begun) listener_.begun(head_);

@@ -51,23 +51,29 @@ Measurement head_of(const Heightfield& surface, const Experiment& experiment, co
     return m;
 }
 
-void note_narrow_lobes(Measurement& head, const std::vector<double>& theta_i) {
+std::string narrow_lobes(const Measurement& head, const std::vector<double>& theta_i) {
     constexpr double kFewCells = 8;
     // A facet tilted by a turns light from above by 2 a, and sideways by 2 a cos(theta_i)
     const double width = 2 * head.surface.rms_gradient;
     const double cells = width * head.detector.rows() / (0.5 * kPi);
-    if (!(width > 0) || cells >= kFewCells || theta_i.empty()) return;
+    if (!(width > 0) || cells >= kFewCells || theta_i.empty()) return {};
     const double column = 2 * kPi / head.detector.columns();
     const double most = *std::max_element(theta_i.begin(), theta_i.end());
-    if (width * std::cos(most) >= column) return;
+    if (width * std::cos(most) >= column) return {};
     const double from = degrees(std::acos(std::min(1.0, column / width)));
     constexpr double kStep = 32;
     const double enough = kStep * std::ceil(head.detector.columns() * kFewCells / (cells * kStep));
-    head.notes.push_back(fmt::format(
+    return fmt::format(
         "lobes of alpha {:.2g} are {:.2g} cells wide in light from above, and from {:.0f} degrees "
         "on narrower than a cell: read between cells and layers they are rough; --resolution {} "
         "resolves them, or a rougher surface",
-        head.surface.rms_gradient, cells, from, enough));
+        head.surface.rms_gradient, cells, from, enough);
+}
+
+std::string narrow_lobes(const Measurement& measurement) {
+    std::vector<double> theta_i;
+    for (const Layer& layer : measurement.layers) theta_i.push_back(layer.theta_i);
+    return narrow_lobes(measurement, theta_i);
 }
 
 void check(const MeasureScope& scope) {

@@ -6,16 +6,21 @@
 #include <asperity/gonio/measurement.h>
 #include <asperity/surface/heightfield.h>
 
+#include <string>
+#include <vector>
+
 namespace asperity {
 
 /// All of a Measurement but its layers and the surface's statistics.
 Measurement head_of(const Heightfield& surface, const Experiment& experiment, const Run& run);
 
-/// Adds a note where the surface's lobes, of which `head.surface` knows the slopes, are told by too
+/// A sentence where the surface's lobes, of which `head.surface` knows the slopes, are told by too
 /// few cells: fewer than eight in light from above, and some layer's is narrower than a cell across
-/// the plane of incidence. `theta_i` [rad] of the layers. Quiet for level surfaces, whose light
-/// stays in one cell anyway.
-void note_narrow_lobes(Measurement& head, const std::vector<double>& theta_i);
+/// the plane of incidence; else empty. `theta_i` [rad] of the layers. Quiet for level surfaces,
+/// whose light stays in one cell anyway.
+std::string narrow_lobes(const Measurement& head, const std::vector<double>& theta_i);
+/// Of a measurement's own layers, whichever version made it.
+std::string narrow_lobes(const Measurement& measurement);
 
 /// Throws Error(Usage, "part") for a part that is none of 1/N to N/N.
 void check(const MeasureScope& scope);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/error.h>
+#include <asperity/gonio/cell_errors.h>
 #include <asperity/gonio/region.h>
 #include <asperity/gonio/test_layers.h>
 #include <asperity/gonio/test_measurements.h>
@@ -96,6 +97,34 @@ TEST(Region, IsNotKnownWhereNothingIsKept) {
     Measurement m = two_cells(false);
     m.layers[0].spread = {};
     EXPECT_TRUE(std::isnan(energy_of_cells(m, m.layers[0], 0, std::vector{0, 5}).error));
+}
+
+TEST(CellErrorsTest, WeightsTellWhetherCellsErrTogether) {
+    // Cells 0 and 5 of two_cells(): both 0.4 or 0.6 in a group, or one the rest of the other
+    const Measurement together = two_cells(false), against = two_cells(true);
+    const double one = std::sqrt(0.16 / 15 / 16);
+    const auto error = [](const Measurement& m, double of_0, double of_5) {
+        std::vector<double> weights(8, 0.0);
+        weights[0] = of_0;
+        weights[5] = of_5;
+        return CellErrors(m, m.layers[0]).error(weights);
+    };
+    EXPECT_NEAR(error(together, 1, 1), 2 * one, 1e-12);
+    EXPECT_NEAR(error(together, 1, -1), 0, 1e-12);
+    EXPECT_NEAR(error(together, 3, -1), 2 * one, 1e-12);
+    EXPECT_NEAR(error(against, 1, 1), 0, 1e-12);
+    EXPECT_NEAR(error(against, 1, -1), 2 * one, 1e-12);
+
+    const CellErrors errors(against, against.layers[0]);
+    std::vector<std::vector<double>> weights(2, std::vector<double>(8, 0.0));
+    weights[0][0] = weights[1][5] = 1;
+    const std::vector<double> covariances = errors.covariances(weights);
+    EXPECT_NEAR(covariances[0], one * one, 1e-12);
+    EXPECT_NEAR(covariances[1], -one * one, 1e-12);
+    EXPECT_NEAR(covariances[2], -one * one, 1e-12);
+    EXPECT_NEAR(covariances[3], one * one, 1e-12);
+    weights[1].pop_back();
+    EXPECT_THROW((void)errors.covariances(weights), Error);
 }
 
 }  // namespace

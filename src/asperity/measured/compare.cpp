@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
+#include <asperity/gonio/cell_errors.h>
 #include <asperity/measured/compare.h>
 #include <asperity/measured/tabulated.h>
 #include <asperity/tracing/launch.h>
@@ -9,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace asperity {
 namespace {
@@ -18,6 +21,8 @@ struct Lobes {
     std::vector<double> energy;  ///< [channel * cells + cell], fraction of the launched energy
     std::vector<double> noise;   ///< its standard error, same shape; empty: exact
     std::vector<double> albedo;  ///< per channel
+    bool exact = true;           ///< no measurement
+    std::optional<CellErrors> errors;  ///< of a measurement that holds what they come from
 };
 
 Lobes lobes_of(const Measurement& m, const Layer& layer) {
@@ -29,11 +34,13 @@ Lobes lobes_of(const Measurement& m, const Layer& layer) {
         lobes.albedo.push_back(m.albedo(layer, channel));
     }
     lobes.noise.assign(layer.stderr_energy.begin(), layer.stderr_energy.end());
+    lobes.exact = false;
+    if (CellErrors::known(layer)) lobes.errors.emplace(m, layer);
     return lobes;
 }
 
 Lobes lobes_of(CellAverages averages) {
-    return {std::move(averages.energy), {}, std::move(averages.albedo)};
+    return {std::move(averages.energy), {}, std::move(averages.albedo), true, {}};
 }
 
 [[noreturn]] void differ(std::string what) {
@@ -42,6 +49,28 @@ Lobes lobes_of(CellAverages averages) {
 
 void require_channels(int a, int b) {
     if (a != b && a != 1 && b != 1) differ(fmt::format("one has {} channels, the other {}", a, b));
+}
+
+/// By how much the figures of a comparison change with each energy of one side, to first order.
+struct Slopes {
+    std::vector<double> albedo, l1, rms;  ///< [channel * cells + cell] of the side
+
+    explicit Slopes(const Lobes& side)
+        : albedo(side.energy.size()), l1(side.energy.size()), rms(side.energy.size()) {}
+};
+
+/// Standard error of a figure that is about `value`, from those of both sides' energies; NaN where
+/// one is not known. Batches of which each has all there is differ by the rounding of their sums.
+double error_of(const Lobes& a, const Slopes& by_a, const Lobes& b, const Slopes& by_b,
+                std::vector<double> Slopes::*figure, double value) {
+    constexpr double kRounding = 1e-12;
+    const auto of_side = [&](const Lobes& side, const Slopes& slopes) {
+        if (side.exact) return 0.0;
+        return side.errors ? side.errors->error(slopes.*figure)
+                           : std::numeric_limits<double>::quiet_NaN();
+    };
+    const double error = std::hypot(of_side(a, by_a), of_side(b, by_b));
+    return error < kRounding * value ? 0.0 : error;
 }
 
 /// The distances of two lobes over the cells of `detector`, averaged over the channels; a side of
@@ -54,6 +83,7 @@ LayerComparison compare_lobes(const Lobes& a, const Lobes& b, const Detector& de
     const double noise_to_l1 = std::sqrt(2 / kPi);  // mean |x| of a normal x of unit variance
 
     LayerComparison result;
+    Slopes by_a(a), by_b(b);
     double squares = 0;
     for (std::size_t channel = 0; channel < channels; ++channel) {
         const std::size_t ca = a.albedo.size() == 1 ? 0 : channel;
@@ -72,10 +102,25 @@ LayerComparison compare_lobes(const Lobes& a, const Lobes& b, const Detector& de
             const double noise = std::hypot(a.noise.empty() ? 0.0 : a.noise[ka],
                                             b.noise.empty() ? 0.0 : b.noise[kb]);
             result.l1_noise += share * noise_to_l1 * noise;
+            const double sign = difference > 0 ? 1 : difference < 0 ? -1 : 0;
+            const auto change = [&](Slopes& slopes, std::size_t k, double side) {
+                slopes.albedo[k] += side * share;
+                slopes.l1[k] += side * share * sign;
+                slopes.rms[k] += side * share * difference / solid_angle;
+            };
+            change(by_a, ka, 1);
+            change(by_b, kb, -1);
         }
     }
     result.albedo_difference = result.albedo_a - result.albedo_b;
     result.rms = std::sqrt(squares / (2 * kPi));
+    const auto error = [&](std::vector<double> Slopes::*figure, double value) {
+        return error_of(a, by_a, b, by_b, figure, value);
+    };
+    result.albedo_difference_error = error(&Slopes::albedo, result.albedo_a);
+    result.l1_error = error(&Slopes::l1, result.l1);
+    const double rms_slope = 2 * kPi * result.rms;
+    if (result.rms > 0) result.rms_error = error(&Slopes::rms, rms_slope * result.rms) / rms_slope;
     return result;
 }
 
@@ -90,12 +135,16 @@ void summarise(Comparison& c) {
     for (const LayerComparison& layer : c.layers) {
         c.mean_l1 += layer.l1;
         c.mean_rms += layer.rms;
+        c.mean_l1_error = std::hypot(c.mean_l1_error, layer.l1_error);
+        c.mean_rms_error = std::hypot(c.mean_rms_error, layer.rms_error);
         c.max_albedo_difference =
             std::max(c.max_albedo_difference, std::abs(layer.albedo_difference));
     }
     const double count = std::max(1.0, static_cast<double>(c.layers.size()));
     c.mean_l1 /= count;
     c.mean_rms /= count;
+    c.mean_l1_error /= count;
+    c.mean_rms_error /= count;
 }
 
 std::string unlike_detectors(const Detector& a, const Detector& b) {
@@ -138,7 +187,7 @@ Comparison compare(const Measurement& a, const Measurement& b) {
     require_channels(a.channels(), b.channels());
     if (std::string why = unlike(a, b); !why.empty()) differ(std::move(why));
 
-    Comparison result{a.surface_name, b.surface_name, {}, 0, 0, 0};
+    Comparison result{a.surface_name, b.surface_name, {}};
     for (const Layer& layer : a.layers)
         add(result, compare_lobes(lobes_of(a, layer), lobes_of(b, *partner(b, layer)), a.detector),
             layer.number, layer.theta_i, layer.phi_i);
@@ -155,7 +204,7 @@ Comparison compare_between_layers(const Measurement& a, const Measurement& b, co
 
 Comparison compare(const Measurement& a, const Bsdf& b, int threads) {
     require_channels(a.channels(), b.channels());
-    Comparison result{a.surface_name, b.name(), {}, 0, 0, 0};
+    Comparison result{a.surface_name, b.name(), {}};
     for (const Layer& layer : a.layers) {
         CellAverages model = average_over_cells(b, a.detector, layer.theta_i, layer.phi_i,
                                                 a.experiment.illumination.isotropic, threads);
@@ -169,7 +218,7 @@ Comparison compare(const Measurement& a, const Bsdf& b, int threads) {
 Comparison compare(const Bsdf& a, const Bsdf& b, const Experiment& experiment, int threads) {
     require_channels(a.channels(), b.channels());
     const Detector detector(experiment.detector);
-    Comparison result{a.name(), b.name(), {}, 0, 0, 0};
+    Comparison result{a.name(), b.name(), {}};
     for (const Incidence& light : incidences(experiment.illumination)) {
         const auto averages = [&](const Bsdf& brdf) {
             return lobes_of(average_over_cells(brdf, detector, light.theta, light.phi,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/bsdf/spec.h>
+#include <asperity/core/energy.h>
 #include <asperity/core/error.h>
 #include <asperity/gonio/angles_of_lobe.h>
 #include <asperity/measured/analytic_measurement.h>
@@ -237,6 +238,41 @@ TEST(CompareTest, BetweenLayersSetByTheLobe) {
         EXPECT_NEAR(layer.albedo_difference, 0, 0.005) << degrees(layer.theta_i);
     }
     for (std::size_t k = 5; k < 7; ++k) EXPECT_GT(far[k].l1, 3 * near[k].l1) << k;
+}
+
+// 16 groups of 10 rays on 2 x 4 cells. Cell 0 gets 4 or 6 of each in turn, cell 5 a tenth of the
+// rest: 0.5 and 0.05 in the mean, where a white diffuse surface has 0.125. So L1 grows with the
+// first and falls with the second, and both with the group.
+TEST(CompareTest, ErrorsKnowWhatCellsDoTogether) {
+    const auto white = parse_brdf_spec("lambert:albedo=1");
+    Measurement m = test::measurement_of(*white, one_layer(0, 4));
+    Layer& layer = m.layers[0];
+    ASSERT_EQ(layer.energy.size(), 8u);
+    EXPECT_TRUE(std::isnan(compare(m, *white, 1).layers[0].l1_error));
+    layer.rays = 160;
+    layer.energy.assign(8, 0);
+    layer.energy[0] = 80 * kRayEnergy;
+    layer.energy[5] = 8 * kRayEnergy;
+    layer.escaped = {88 * kRayEnergy};
+    layer.escaped_by_bounce = layer.escaped;
+    layer.stderr_energy.assign(8, 0.01F);
+    layer.spread.groups = GroupSums(m.shape());
+    for (std::size_t g = 0; g < 16; ++g) {
+        const std::uint64_t more = g % 2 == 0 ? 6 : 4;
+        layer.spread.groups.rays[g] = 10;
+        layer.spread.groups.energy[g * 8] = more * kRayEnergy;
+        layer.spread.groups.energy[g * 8 + 5] = (10 - more) * (kRayEnergy / 10);
+    }
+    const double one = std::sqrt(0.16 / 15 / 16);  // of cell 0, see CellErrors
+    const LayerComparison c = compare(m, *white, 1).layers[0];
+    EXPECT_NEAR(c.l1, 0.375 + 0.075 + 6 * 0.125, 1e-9);
+    EXPECT_NEAR(c.l1_error, 1.1 * one, 1e-9);
+    EXPECT_NEAR(c.albedo_difference_error, 0.9 * one, 1e-9);
+    // d rms = sum of d_b / omega_b delta_b / (2 pi rms)
+    const double top = m.detector.solid_angle(0), low = m.detector.solid_angle(1);
+    EXPECT_NEAR(c.rms_error, (0.375 / top + 0.1 * 0.075 / low) * one / (2 * kPi * c.rms), 1e-9);
+    // Two that were measured apart
+    EXPECT_NEAR(compare(m, m).layers[0].albedo_difference_error, std::sqrt(2.0) * 0.9 * one, 1e-9);
 }
 
 }  // namespace

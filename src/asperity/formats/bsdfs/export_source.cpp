@@ -8,6 +8,7 @@
 #include <asperity/formats/bsdfs/export_source.h>
 #include <asperity/formats/results/result_file.h>
 #include <asperity/gonio/experiment_text.h>
+#include <asperity/gonio/measurement_head.h>
 #include <asperity/measured/tabulated.h>
 
 #include <fmt/format.h>
@@ -239,6 +240,8 @@ std::vector<std::string> ExportSource::provenance() const {
 std::vector<std::string> ExportSource::remarks() const {
     std::vector<std::string> remarks;
     if (!measurement_) return remarks;
+    if (std::string narrow = narrow_lobes(*measurement_); !narrow.empty())
+        remarks.push_back(std::move(narrow));
     if (phis_.size() == 1 && !experiment_.illumination.isotropic &&
         !measurement_->surface_isotropic)
         remarks.emplace_back("one azimuth was measured and stands for all");
