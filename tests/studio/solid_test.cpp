@@ -44,6 +44,7 @@ class SolidTest : public QObject {
     void keys_turn_the_camera();
     void home_has_the_whole_dome_in_view();
     void measuring_at_start_can_be_turned_off();
+    void surfaces_and_textures_may_be_large();
 
   private:
     StudioWindow& window() { return *window_; }
@@ -281,6 +282,35 @@ void SolidTest::measuring_at_start_can_be_turned_off() {
     window().begin(true);
     QVERIFY(window().workbench().is_drawing());
     window().workbench().stop_drawing();
+}
+
+// 4096 samples on a side, of the thesis' noise too, and layers of 4096 x 2048 cells.
+void SolidTest::surfaces_and_textures_may_be_large() {
+    constexpr int kLarge = 4096;
+    window().type("surface-size", kLarge);
+    window().click("apply-size");
+    QVERIFY(window().surface_comes());
+    QCOMPARE(window().workbench().settings().experiment.surface.kind, "thesis");
+    QCOMPARE(window().workbench().surface().surface()->nx, kLarge);
+    QCOMPARE(window().workbench().surface().surface()->ny, kLarge);
+    QVERIFY(window().text("statistics-text").contains("Unique triangle count: 33554432"));
+    QVERIFY(window().picture_comes());
+
+    // Rays as for a small surface: it is the layers that are large here
+    window().type("surface-size", 120);
+    window().click("apply-size");
+    QVERIFY(window().surface_comes());
+    auto& sizes = window().control<QComboBox>("texture-resolution");
+    sizes.setCurrentIndex(sizes.findData(kLarge));
+    QCOMPARE(window().workbench().settings().experiment.detector.resolution, kLarge);
+    window().click("draw-to-textures");
+    const Drawing& drawing = window().workbench().drawing();
+    QTRY_VERIFY_WITH_TIMEOUT(!drawing.layers().by_number.empty(), 60000);
+    QCOMPARE(drawing.layers().head->detector.cells(), kLarge * kLarge / 2);
+    QVERIFY(window().text("statistics-text").contains("Resolution: 4096x4096"));
+    QVERIFY(window().picture_comes());
+    window().click("stop-drawing");
+    QVERIFY(QTest::qWaitFor([this] { return !window().workbench().is_drawing(); }, 60000));
 }
 
 }  // namespace asperity::studio::testing

@@ -35,12 +35,12 @@ bool is_periodic_shape(const S& s) {
     return surface_uses(s.kind, "period");
 }
 
-// The thesis' sizes, and those that are made at once of all other kinds
-constexpr int kThesisLeast = 120, kThesisMost = 512, kLeast = 16, kMost = 4096;
+// Sizes that are made at once; the thesis' own were 120 .. 512
+constexpr int kThesisLeast = 120, kLeast = 16, kMost = 4096;
 
-/// Makes the size one that the kind can have: within the thesis' range, whole periods.
+/// Makes the size one that the kind can have: not below the thesis' for its noise, whole periods.
 void fit_size(S& s) {
-    if (is_thesis(s)) s.size = std::clamp(s.size, kThesisLeast, kThesisMost);
+    if (is_thesis(s)) s.size = std::max(s.size, kThesisLeast);
     if (is_periodic_shape(s)) s.size = s.period * std::max(1, (s.size + s.period / 2) / s.period);
 }
 
@@ -260,14 +260,13 @@ void SurfaceFields::add_size() {
     layout->addWidget(apply);
     pair->setFocusProxy(size_);
     add_row(tr("Surface Size"), pair,
-            tr("Samples on a side: 120 .. 512 for the thesis noise. A cell holds two triangles, so "
-               "120 gives 28800. Apply Size makes the surface"),
+            tr("Samples on a side, 4096 at most; the thesis noise had 120 .. 512. A cell holds two "
+               "triangles, so 120 gives 28800. Apply Size makes the surface"),
             [](const StudioSettings& s) { return s.experiment.surface.kind != kSurfaceFile; });
     bindings_.follow([this](const StudioSettings& settings) {
         const S& surface = settings.experiment.surface;
         const QSignalBlocker quiet(size_);
-        size_->setRange(is_thesis(surface) ? kThesisLeast : kLeast,
-                        is_thesis(surface) ? kThesisMost : kMost);
+        size_->setRange(is_thesis(surface) ? kThesisLeast : kLeast, kMost);
         size_->setSingleStep(is_periodic_shape(surface) ? surface.period : 8);
         // What was typed and not applied yet outlives changes of other settings
         if (surface.size == size_shown_) return;
