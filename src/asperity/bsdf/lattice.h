@@ -11,6 +11,7 @@ namespace asperity {
 struct FibonacciLattice {
     int points, step;
 };
+inline constexpr FibonacciLattice kFinestLattice = {121393, 75025}, kFinerLattice = {28657, 17711};
 inline constexpr FibonacciLattice kFineLattice = {10946, 6765}, kMediumLattice = {4181, 2584},
                                   kCoarseLattice = {1597, 987};
 
