@@ -23,7 +23,9 @@ class Comparison:
     """Distances of two BRDFs, channels averaged; arrays are [layer].
 
     l1: integral of |fa - fb| cos(theta_o) over cell means, 0 equal, 2 apart; l1_noise: what it would be from the
-    error bars alone; rms: root mean square of the same difference over the hemisphere [1/sr].
+    error bars alone; rms: root mean square of the same difference over the hemisphere [1/sr]. Names with _stderr are
+    standard errors, from batches (docs/theory.md, "Sums of cells"): nan where a result does not hold what they come
+    from, 0 between models.
     """
 
     name_a: str
@@ -33,10 +35,14 @@ class Comparison:
     albedo_a: Floats
     albedo_b: Floats
     l1: Floats
+    l1_stderr: Floats
     l1_noise: Floats
     rms: Floats
+    rms_stderr: Floats
     mean_l1: float
+    mean_l1_stderr: float
     mean_rms: float
+    mean_rms_stderr: float
     max_albedo_difference: float
 
     def _rows(self) -> list[list[str]]:
@@ -88,5 +94,7 @@ def compare(a: Any, b: Any, *, threads: int | None = None, **settings: Any) -> C
     d = _core.compare(sides[0], sides[1], texts, thread_count(threads))
     first, second = ("albedo_b", "albedo_a") if swap else ("albedo_a", "albedo_b")
     names = (name_of(a) if isinstance(a, (str, Measurement)) else name_of(a), name_of(b))
-    return Comparison(*names, np.degrees(d["theta"]), np.degrees(d["phi"]), d[first], d[second], d["l1"],
-                      d["l1_noise"], d["rms"], d["mean_l1"], d["mean_rms"], d["max_albedo_difference"])
+    return Comparison(*names, np.degrees(d["theta"]), np.degrees(d["phi"]), d[first], d[second],
+                      **{name: d[name] for name in ("l1", "l1_stderr", "l1_noise", "rms", "rms_stderr", "mean_l1",
+                                                    "mean_l1_stderr", "mean_rms", "mean_rms_stderr",
+                                                    "max_albedo_difference")})

@@ -32,9 +32,13 @@ nb::dict to_dict(const Comparison& c) {
     d["albedo_b"] = column(c, [](const L& l) { return l.albedo_b; });
     d["l1"] = column(c, [](const L& l) { return l.l1; });
     d["l1_noise"] = column(c, [](const L& l) { return l.l1_noise; });
+    d["l1_stderr"] = column(c, [](const L& l) { return l.l1_error; });
     d["rms"] = column(c, [](const L& l) { return l.rms; });
+    d["rms_stderr"] = column(c, [](const L& l) { return l.rms_error; });
     d["mean_l1"] = c.mean_l1;
+    d["mean_l1_stderr"] = c.mean_l1_error;
     d["mean_rms"] = c.mean_rms;
+    d["mean_rms_stderr"] = c.mean_rms_error;
     d["max_albedo_difference"] = c.max_albedo_difference;
     return d;
 }

@@ -126,6 +126,10 @@ def test_compare_is_that_of_the_program(gold, program, tmp_path):
     c = asperity.compare(gold, "ggx:alpha=0.3,material=Au")
     assert c.mean_l1 == pytest.approx(told["mean_l1"], rel=1e-12)
     assert [layer["l1"] for layer in told["layers"]] == pytest.approx(c.l1.tolist(), rel=1e-12)
+    for name in ("l1_stderr", "rms_stderr"):
+        assert [layer[name] for layer in told["layers"]] == pytest.approx(getattr(c, name).tolist(), rel=1e-9)
+        assert (getattr(c, name) > 0).all()
+    assert c.mean_l1_stderr == pytest.approx(told["mean_l1_stderr"], rel=1e-9) and 0 < c.mean_l1_stderr < c.mean_l1
     turned = asperity.compare("ggx:alpha=0.3,material=Au", gold)
     np.testing.assert_array_equal(turned.albedo_b, c.albedo_a)
     assert asperity.compare(gold, str(tmp_path / "gold.asperity")).mean_l1 == 0
@@ -133,6 +137,7 @@ def test_compare_is_that_of_the_program(gold, program, tmp_path):
     two = asperity.compare("lambert:albedo=0.5", "lambert:albedo=0.25", theta_deg=[0, 40], resolution=16)
     # The integral of (0.5 - 0.25) / pi cos is 0.25
     np.testing.assert_allclose(two.l1, 0.25, rtol=1e-9)
+    assert (two.l1_stderr == 0).all() and two.mean_rms_stderr == 0
     refused(lambda: asperity.compare(gold, "lambert:albedo=1", resolution=8), ErrorCode.USAGE, "brings its own")
     refused(lambda: asperity.compare(gold, 3.5), ErrorCode.USAGE, "no eval")
 
