@@ -34,7 +34,7 @@ namespace asperity::cli {
 
 namespace {
 
-std::string closing() {
+std::string compare_closing() {
     return "A and B are result files, files of BSDFs (asperity export --help) or models:\n" +
            brdf_spec_help() +
            "A key left out keeps its default; lists have \"/\" between their numbers.\n"
@@ -153,7 +153,7 @@ class CompareVerb {
         experiment_.add_to(app, {kLight, kDetector}, false);
         threads_.add_to(app);
         app.add_flag("--json", json_, "print one JSON object")->group(kOutput);
-        set_help(app, "compare A B [options]", closing());
+        set_help(app, "compare A B [options]", compare_closing());
     }
 
     int run() {

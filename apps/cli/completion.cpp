@@ -86,12 +86,6 @@ std::string bash_verb(const CLI::App& verb) {
         verb.get_name(), values, fmt::join(options, " "), bash_replies(own, files));
 }
 
-Words verb_names(const CLI::App& program) {
-    Words names;
-    for (const CLI::App* verb : program.get_subcommands({})) names.push_back(verb->get_name());
-    return names;
-}
-
 /// Inside 'single quotes', of a text behind which zsh looks for a colon.
 std::string zsh_text(const std::string& text) {
     std::string out;

@@ -33,7 +33,7 @@ namespace asperity::cli {
 
 namespace {
 
-constexpr const char* kClosing =
+constexpr const char* kExportClosing =
     "Examples\n"
     "  asperity export metal.asperity -o layers.exr     (all layers, one EXR part each, f in "
     "1/sr)\n"
@@ -83,7 +83,8 @@ class ExportVerb {
             ->group(kOutput);
         app.add_flag("--json", json_, "print one JSON object: the fidelity")->group(kOutput);
         app.add_flag("--quiet", quiet_, "do not name the files written")->group(kOutput);
-        set_help(app, "export FILE -o X.exr | X.csv | X.png | FOLDER/", formats_text() + kClosing);
+        set_help(app, "export FILE -o X.exr | X.csv | X.png | FOLDER/",
+                 formats_text() + kExportClosing);
     }
 
     int run() const {

@@ -31,7 +31,7 @@ namespace asperity::cli {
 
 namespace {
 
-std::string closing() {
+std::string fit_closing() {
     return "FILE is a result file or a file of a BSDF (asperity export --help); Light and "
            "Detector\n"
            "options are for the latter. Models and their keys:\n" +
@@ -158,7 +158,7 @@ class FitVerb {
         mtlx_ = add_text(app, "--mtlx", "FILE", "the fit of ggx as a surface of MaterialX", kOutput)
                     ->default_str("none");
         app.add_flag("--json", json_, "print one JSON object")->group(kOutput);
-        set_help(app, "fit FILE [options]", closing());
+        set_help(app, "fit FILE [options]", fit_closing());
     }
 
     int run() {

@@ -28,7 +28,7 @@ namespace asperity::cli {
 
 namespace {
 
-constexpr const char* kClosing =
+constexpr const char* kGlossClosing =
     "Light from the source's aperture falls on the surface, is followed from facet to facet and\n"
     "counts where it leaves into the receptor's, as ISO 2813 and ASTM D523 have them: 100 gloss\n"
     "units are what polished glass of index 1.567 sends there. At 20 degrees also the haze of ISO\n"
@@ -52,7 +52,7 @@ struct Interference {
     std::string verdict;
 };
 
-std::string with_error(const WithError& figure) {
+std::string figure_text(const WithError& figure) {
     // Where no ray came, nothing is known of the error either
     if (figure.value == 0 && figure.error == 0) return "0 (no ray)";
     return cli::with_error(figure.value, figure.error);
@@ -92,7 +92,8 @@ class GlossVerb {
                          ->default_str("30");
         app.add_flag("--json", json_, "print one JSON object and nothing else")->group(kOutput);
         app.add_flag("--quiet", quiet_, "print nothing but errors")->group(kOutput);
-        set_help(app, "gloss --surface SPEC|FILE [--material NAME | --ior N] [options]", kClosing);
+        set_help(app, "gloss --surface SPEC|FILE [--material NAME | --ior N] [options]",
+                 kGlossClosing);
     }
 
     int run() {
@@ -188,9 +189,9 @@ class GlossVerb {
         for (const GlossReading& r : report.readings)
             for (std::size_t c = 0; c < r.gloss.size(); ++c) {
                 std::vector<std::string> row = {fmt::format("{}°", r.geometry.angle_deg),
-                                                report.channel_names[c], with_error(r.gloss[c]),
-                                                r.haze.empty() ? "" : with_error(r.haze[c]),
-                                                with_error(r.reflectance[c])};
+                                                report.channel_names[c], figure_text(r.gloss[c]),
+                                                r.haze.empty() ? "" : figure_text(r.haze[c]),
+                                                figure_text(r.reflectance[c])};
                 if (waves) row.push_back(fmt::format("{:.4g}", scatter(*waves, r)));
                 table.add(row);
             }
@@ -204,7 +205,7 @@ class GlossVerb {
         }
         for (std::size_t c = 0; c < report.haze_index.size(); ++c)
             say(fmt::format("haze index of ASTM D4039 ({}), gloss at 60° less that at 20°: {}\n",
-                            report.channel_names[c], with_error(report.haze_index[c])));
+                            report.channel_names[c], figure_text(report.haze_index[c])));
         tell_doi(say, report);
         for (const std::string& note : report.notes) say("note: " + note + "\n");
         if (waves)
@@ -218,7 +219,7 @@ class GlossVerb {
         for (std::size_t c = 0; c < report.doi->doi.size(); ++c)
             say(fmt::format("DOI at {}° ({}), source {}° and receptors {}° wide: {}\n",
                             geometry.angle_deg, report.channel_names[c], geometry.source.in_plane,
-                            geometry.receptor.in_plane, with_error(report.doi->doi[c])));
+                            geometry.receptor.in_plane, figure_text(report.doi->doi[c])));
     }
 
     static Json to_json(const DoiReading& doi) {

@@ -15,7 +15,7 @@ namespace asperity::cli {
 
 namespace {
 
-constexpr const char* kClosing =
+constexpr const char* kHelpClosing =
     "Examples\n"
     "  asperity help\n"
     "  asperity help simulate\n"
@@ -36,7 +36,7 @@ Verb add_help(CLI::App& program) {
     CLI::App* app = program.add_subcommand("help", "explain the program, or a verb of it");
     const CLI::Option* name =
         add_text(*app, "verb", "VERB", "one of those asperity help lists", "");
-    set_help(*app, "help [VERB]", kClosing);
+    set_help(*app, "help [VERB]", kHelpClosing);
     return {app, [&program, name] {
                 const CLI::App& page =
                     name->count() == 0 ? program : find_verb(program, text_of(name));

@@ -24,7 +24,7 @@ namespace asperity::cli {
 
 namespace {
 
-constexpr const char* kClosing =
+constexpr const char* kInfoClosing =
     "Examples\n"
     "  asperity info metal.asperity\n"
     "  asperity info metal.asperity --json | jq '.layers[0].albedo'\n"
@@ -158,7 +158,7 @@ class InfoVerb {
                            "energy of the cells whose centres have polar angles from T0 to T1 and "
                            "azimuths from P0 to P1, in degrees, with its error",
                            kOutput);
-        set_help(app, "info FILE [--region T0:T1,P0:P1] [--json | --config]", kClosing);
+        set_help(app, "info FILE [--region T0:T1,P0:P1] [--json | --config]", kInfoClosing);
     }
 
     int run() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "leftovers.h"
 
+#include "option_names.h"
 #include "swapped.h"
 
 #include <asperity/bsdf/spec.h>
@@ -28,12 +29,6 @@ using Words = std::vector<std::string>;
 
 bool is_option(const std::string& word) {
     return word.size() > 1 && word.front() == '-';
-}
-
-Words verb_names(const CLI::App& program) {
-    Words names;
-    for (const CLI::App* verb : program.get_subcommands({})) names.push_back(verb->get_name());
-    return names;
 }
 
 Words option_names(const CLI::App& verb) {

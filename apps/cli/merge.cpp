@@ -20,7 +20,7 @@ namespace asperity::cli {
 
 namespace {
 
-constexpr const char* kClosing =
+constexpr const char* kMergeClosing =
     "All parts must be there, of one experiment, each batch once; their order does not matter. "
     "The\n"
     "result is that of a run which did everything by itself, to the bit.\n"
@@ -38,7 +38,7 @@ class MergeVerb {
         app.add_option("files", files_, "results of asperity simulate --part K/N")
             ->type_name("FILE...");
         measuring_.add_output(app, "none: it must be given");
-        set_help(app, "merge FILE... -o FILE", kClosing);
+        set_help(app, "merge FILE... -o FILE", kMergeClosing);
     }
 
     int run() {

@@ -44,6 +44,12 @@ Words choices_in(const ParamTable<Settings>& table, const std::string& name) {
 
 }  // namespace
 
+std::vector<std::string> verb_names(const CLI::App& program) {
+    Words names;
+    for (const CLI::App* verb : program.get_subcommands({})) names.push_back(verb->get_name());
+    return names;
+}
+
 Words names_for(const CLI::App& verb, const std::string& option) {
     Words names;
     const io::BsdfFormats bsdfs;

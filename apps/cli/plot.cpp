@@ -37,7 +37,7 @@ using plots::PlotKind;
 using plots::PlotSettings;
 using plots::PlotSubject;
 
-constexpr const char* kClosing =
+constexpr const char* kPlotClosing =
     "All subjects share one plot. A model beside a result is averaged over the cells of its\n"
     "detector, as the instrument would see it; models alone are drawn exactly. Bands and bars are\n"
     "one standard error. A CSV holds the same curves as numbers, errors in columns of their own.\n"
@@ -151,7 +151,8 @@ class PlotVerb {
         file_.add_to(app, plots::plot_file_params(), kOutput);
         threads_.add_to(app);
         app.add_flag("--quiet", quiet_, "do not name the file written")->group(kOutput);
-        set_help(app, "plot A [B ...] [--kind KIND] -o X.svg | X.pdf | X.png | X.csv", kClosing);
+        set_help(app, "plot A [B ...] [--kind KIND] -o X.svg | X.pdf | X.png | X.csv",
+                 kPlotClosing);
     }
 
     int run() const {

@@ -26,7 +26,7 @@ namespace asperity::cli {
 
 namespace {
 
-constexpr const char* kClosing =
+constexpr const char* kReferenceClosing =
     "man writes the page of a verb of the manual, or with -o those of all; bash and zsh what "
     "these\n"
     "shells read to complete a command.\n"
@@ -111,7 +111,7 @@ class ReferenceVerb {
                       ->default_str("markdown");
         folder_ = add_text(app, "-o,--output", "FOLDER/",
                            "with --format man: the pages of the program and of all verbs", kOutput);
-        set_help(app, "reference [--format NAME] [VERB]", kClosing);
+        set_help(app, "reference [--format NAME] [VERB]", kReferenceClosing);
     }
 
     int run() const {

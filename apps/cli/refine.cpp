@@ -18,7 +18,7 @@ namespace asperity::cli {
 
 namespace {
 
-constexpr const char* kClosing =
+constexpr const char* kRefineClosing =
     "The result comes out as if it had been asked for at once: nothing is measured twice. The\n"
     "surface is made or read again, and must be the same.\n"
     "\n"
@@ -40,7 +40,7 @@ class RefineVerb {
                         ->default_str("256 x the first estimate");
         measuring_.add_run(app);
         measuring_.add_output(app, "FILE itself");
-        set_help(app, "refine FILE --until P[,Q] [options]", kClosing);
+        set_help(app, "refine FILE --until P[,Q] [options]", kRefineClosing);
     }
 
     int run() {

@@ -24,7 +24,7 @@ namespace asperity::cli {
 
 namespace {
 
-constexpr const char* kClosing =
+constexpr const char* kRenderClosing =
     "The picture gets better sample by sample: --spp says how often, --until how clean it shall\n"
     "be. Ctrl-C writes what is there. An EXR holds linear light and, per pixel, its standard "
     "error;\n"
@@ -53,7 +53,8 @@ class RenderVerb {
                 ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
         app.add_flag("--json", json_, "print one JSON object")->group(kOutput);
         app.add_flag("--quiet", quiet_, "no progress, no report")->group(kOutput);
-        set_help(app, "render --model NAME|FILE --brdf SPEC|FILE [options] -o X.png", kClosing);
+        set_help(app, "render --model NAME|FILE --brdf SPEC|FILE [options] -o X.png",
+                 kRenderClosing);
     }
 
     int run() {

@@ -16,7 +16,7 @@ namespace asperity::cli {
 
 namespace {
 
-constexpr const char* kClosing =
+constexpr const char* kSelftestClosing =
     "Prints a line per check and the totals; the exit code is 1 when one failed. The thesis' Run\n"
     "Test comes first, with a total of its own: 75 texture checks (15 layers at 5 resolutions, on\n"
     "real textures) and 4 of loading a small and a large model. Then physics: surfaces and lobes "
@@ -33,7 +33,7 @@ class SelftestVerb {
     explicit SelftestVerb(CLI::App& app) {
         threads_.add_to(app);
         app.add_flag("--quiet", quiet_, "print only what failed, and the total")->group(kOutput);
-        set_help(app, "selftest [options]", kClosing);
+        set_help(app, "selftest [options]", kSelftestClosing);
     }
 
     int run() const {

@@ -23,7 +23,7 @@ namespace asperity::cli {
 
 namespace {
 
-constexpr const char* kClosing =
+constexpr const char* kSheetClosing =
     "All pictures go through the same tone mapping with the same exposure: what differs in the\n"
     "sheet differs in the light. They must be of one size. Pictures fill the rows from the left.\n"
     "\n"
@@ -94,7 +94,7 @@ class SheetVerb {
         labels_ = add_text(app, "--labels", "A,B...", "below the pictures", kOutput);
         tone_.add_to(app, {"tonemap", "exposure", "transfer"});
         app.add_flag("--quiet", quiet_, "do not name the file written")->group(kOutput);
-        set_help(app, "sheet A.exr B.exr ... -o X.png", kClosing);
+        set_help(app, "sheet A.exr B.exr ... -o X.png", kSheetClosing);
     }
 
     int run() {

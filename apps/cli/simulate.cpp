@@ -14,7 +14,7 @@ namespace asperity::cli {
 
 namespace {
 
-constexpr const char* kClosing =
+constexpr const char* kSimulateClosing =
     "Each layer is one incident direction. The table shows, per layer, the albedo (the share of\n"
     "the light that leaves again) with the standard error of its last digits; of the incoming\n"
     "light, what leaves after one, two and more reflections, what is absorbed and what still\n"
@@ -42,7 +42,7 @@ class SimulateVerb {
                      "do share K of N of the work; asperity merge puts the shares together", kRun)
                 ->default_str("all of it");
         measuring_.add_output(app, "only the table is shown");
-        set_help(app, "simulate --surface SPEC|FILE [options] -o FILE", kClosing);
+        set_help(app, "simulate --surface SPEC|FILE [options] -o FILE", kSimulateClosing);
     }
 
     int run() {

@@ -23,7 +23,7 @@ namespace asperity::cli {
 
 namespace {
 
-constexpr const char* kClosing =
+constexpr const char* kSurfaceClosing =
     "With neither -o nor --png the figures are shown, as with --stats.\n"
     "\n"
     "Examples\n"
@@ -58,7 +58,7 @@ class SurfaceVerb {
             ->group(kOutput);
         app.add_flag("--json", json_, "print one JSON object and nothing else")->group(kOutput);
         app.add_flag("--quiet", quiet_, "print nothing but errors")->group(kOutput);
-        set_help(app, "surface SPEC|FILE [options] [-o FILE] [--png FILE]", kClosing);
+        set_help(app, "surface SPEC|FILE [options] [-o FILE] [--png FILE]", kSurfaceClosing);
     }
 
     int run() {
