@@ -15,7 +15,7 @@ namespace asperity::bench {
 
 namespace {
 
-struct Options {
+struct AroundOptions {
     std::vector<std::string> surfaces = surface_names();
     int size = 512;
     std::vector<double> thetas = {0, 45, 80};
@@ -39,7 +39,7 @@ Experiment experiment_of(double theta_deg, std::uint64_t rays, bool gold, bool a
 
 /// Adds the row of a surface, an angle and a reflectance; returns the ratio of the speeds.
 double add_row(const std::string& name, const Heightfield& surface, double theta, bool gold,
-               const Options& options, Report& report) {
+               const AroundOptions& options, Report& report) {
     const auto rays = static_cast<std::uint64_t>(options.rays_per_cell *
                                                  static_cast<double>(surface.cell_count()));
     const Experiment fixed = experiment_of(theta, rays, gold, false),
@@ -71,7 +71,7 @@ double add_row(const std::string& name, const Heightfield& surface, double theta
     return median(ratios);
 }
 
-Report run(const Options& options) {
+Report run_around(const AroundOptions& options) {
     Report report;
     report.table = fmt::format(
         "Isotropic: light from all around beside light of one azimuth, N = {}, one thread\n"
@@ -94,14 +94,14 @@ Report run(const Options& options) {
 }  // namespace
 
 Task add_around(CLI::App& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<AroundOptions>();
     CLI::App* app = program.add_subcommand("around", "isotropic light beside one azimuth");
     add_surface(*app, options->surfaces);
     add_size(*app, options->size);
     add_theta(*app, options->thetas);
     app->add_option("--rays-per-cell", options->rays_per_cell, "of a layer")->capture_default_str();
     add_repetitions(*app, options->repetitions);
-    return {app, [options] { return bench::run(*options); }};
+    return {app, [options] { return run_around(*options); }};
 }
 
 }  // namespace asperity::bench

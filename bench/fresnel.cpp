@@ -14,7 +14,7 @@ namespace asperity::bench {
 
 namespace {
 
-struct Options {
+struct FresnelOptions {
     std::vector<std::string> surfaces = {"gaussian-0.3", "thesis-0.2", "thesis-1"};
     int size = 512;
     std::vector<double> thetas = {0, 45, 80};
@@ -38,7 +38,7 @@ Experiment gold(double theta_deg) {
 
 /// Adds the row of a surface and an angle.
 void add_row(const std::string& name, const Heightfield& surface, double theta,
-             const Options& options, Report& report) {
+             const FresnelOptions& options, Report& report) {
     Experiment plain = mirrors(theta), metal = gold(theta);
     plain.run.rays = rays_for_seconds(surface, plain, options.seconds);
     metal.run.rays = plain.run.rays;
@@ -67,7 +67,7 @@ void add_row(const std::string& name, const Heightfield& surface, double theta,
                               {"relative_cost", median(ratios)}});
 }
 
-Report run(const Options& options) {
+Report run_fresnel(const FresnelOptions& options) {
     Report report;
     report.table = fmt::format(
         "Fresnel: gold in RGB with 4 orders over perfect mirrors with 1, N = {}, one thread\n"
@@ -86,7 +86,7 @@ Report run(const Options& options) {
 }  // namespace
 
 Task add_fresnel(CLI::App& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<FresnelOptions>();
     CLI::App* app = program.add_subcommand("fresnel", "a metal beside perfect mirrors");
     add_surface(*app, options->surfaces);
     add_size(*app, options->size);
@@ -94,7 +94,7 @@ Task add_fresnel(CLI::App& program) {
     app->add_option("--seconds", options->seconds, "the mirrors' work in a repetition, about")
         ->capture_default_str();
     add_repetitions(*app, options->repetitions);
-    return {app, [options] { return bench::run(*options); }};
+    return {app, [options] { return run_fresnel(*options); }};
 }
 
 }  // namespace asperity::bench

@@ -17,7 +17,7 @@ namespace asperity::bench {
 
 namespace {
 
-struct Options {
+struct GrowthOptions {
     std::string surface = "gaussian-0.3";
     std::vector<int> sizes = {512, 4096, 16384};
     double theta_deg = 45;
@@ -59,7 +59,7 @@ struct Entry {
     }
 };
 
-std::unique_ptr<Entry> make_ready(const Options& options, int size) {
+std::unique_ptr<Entry> make_ready(const GrowthOptions& options, int size) {
     auto entry = std::make_unique<Entry>();
     forget_peak_memory();
     entry->surface = make_bench_surface(options.surface, size);
@@ -76,7 +76,7 @@ std::unique_ptr<Entry> make_ready(const Options& options, int size) {
     return entry;
 }
 
-Report report(const Options& options, const std::vector<std::unique_ptr<Entry>>& entries) {
+Report report(const GrowthOptions& options, const std::vector<std::unique_ptr<Entry>>& entries) {
     Report report;
     report.table = fmt::format(
         "Growth: {} at {}°, one thread; cost per path relative to the first\n"
@@ -110,7 +110,7 @@ Report report(const Options& options, const std::vector<std::unique_ptr<Entry>>&
     return report;
 }
 
-Report run(const Options& options) {
+Report run_growth(const GrowthOptions& options) {
     std::vector<std::unique_ptr<Entry>> entries;
     for (const int size : options.sizes) {
         say_next(fmt::format("N = {}", size));
@@ -125,7 +125,7 @@ Report run(const Options& options) {
 }  // namespace
 
 Task add_growth(CLI::App& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<GrowthOptions>();
     CLI::App* app = program.add_subcommand("growth", "cost per path and memory by size");
     add_surface(*app, options->surface);
     app->add_option("--size", options->sizes, "samples on a side, smallest first")
@@ -135,7 +135,7 @@ Task add_growth(CLI::App& program) {
     add_theta(*app, options->theta_deg);
     app->add_option("--paths", options->paths, "default: one a cell, at least 2^18, at most 2^28");
     add_repetitions(*app, options->repetitions);
-    return {app, [options] { return bench::run(*options); }};
+    return {app, [options] { return run_growth(*options); }};
 }
 
 }  // namespace asperity::bench

@@ -15,7 +15,7 @@ namespace asperity::bench {
 
 namespace {
 
-struct Options {
+struct RenderFrameOptions {
     int size = 256;
     int repetitions = 9;
 };
@@ -35,7 +35,7 @@ double total(const RayCounts& rays) {
     return static_cast<double>(rays.primary + rays.shadow + rays.bounce);
 }
 
-Report run(const Options& options) {
+Report run_render_frame(const RenderFrameOptions& options) {
     Report report;
     report.table = fmt::format(
         "Frames of {0} x {0}: the simulated BRDF over Cook-Torrance\n"
@@ -76,11 +76,11 @@ Report run(const Options& options) {
 }  // namespace
 
 Task add_frame(CLI::App& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<RenderFrameOptions>();
     CLI::App* app = program.add_subcommand("frame", "simulated BRDF over Cook-Torrance");
     app->add_option("--size", options->size, "of the picture [pixels]")->capture_default_str();
     add_repetitions(*app, options->repetitions);
-    return {app, [options] { return run(*options); }};
+    return {app, [options] { return run_render_frame(*options); }};
 }
 
 }  // namespace asperity::bench

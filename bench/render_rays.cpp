@@ -26,7 +26,7 @@ namespace {
 constexpr float kFar = std::numeric_limits<float>::infinity();
 constexpr int kTile = 16;
 
-struct Options {
+struct RenderRaysOptions {
     int size = 512;
     int repetitions = 9;
 };
@@ -251,7 +251,7 @@ Rate our_frame(const RenderBench& bench, int size) {
     return rate;
 }
 
-Report run(const Options& options) {
+Report run_render_rays(const RenderRaysOptions& options) {
     _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
     _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
     Report report;
@@ -301,12 +301,12 @@ Report run(const Options& options) {
 }  // namespace
 
 Task add_rays(CLI::App& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<RenderRaysOptions>();
     CLI::App* app = program.add_subcommand("rays", "rays per second over bare loops of Embree");
     app->add_option("--size", options->size, "of the picture, a multiple of 16 [pixels]")
         ->capture_default_str();
     add_repetitions(*app, options->repetitions);
-    return {app, [options] { return run(*options); }};
+    return {app, [options] { return run_render_rays(*options); }};
 }
 
 }  // namespace asperity::bench

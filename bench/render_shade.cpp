@@ -51,7 +51,7 @@ double nanoseconds(const std::vector<Call>& calls, Body body) {
     return median(times);
 }
 
-Report run() {
+Report run_render_shade() {
     Report report;
     report.table = fmt::format(
         "Nanoseconds a call, one thread, directions spread by a cosine\n"
@@ -90,7 +90,7 @@ Report run() {
 
 Task add_shade(CLI::App& program) {
     CLI::App* app = program.add_subcommand("shade", "evaluation and samples of each BRDF");
-    return {app, [] { return run(); }};
+    return {app, [] { return run_render_shade(); }};
 }
 
 }  // namespace asperity::bench

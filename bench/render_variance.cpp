@@ -16,7 +16,7 @@ namespace asperity::bench {
 
 namespace {
 
-struct Options {
+struct RenderVarianceOptions {
     int size = 96;
     std::uint32_t samples = 256;
     double sun_diameter_deg = 5;
@@ -27,7 +27,7 @@ struct Outcome {
     double error = 0;               ///< of the mean
 };
 
-Outcome outcome(const ModelScene& scene, const Camera& camera, const Options& options,
+Outcome outcome(const ModelScene& scene, const Camera& camera, const RenderVarianceOptions& options,
                 DirectLight direct) {
     RenderSettings settings;
     settings.width = settings.height = options.size;
@@ -49,7 +49,7 @@ Outcome outcome(const ModelScene& scene, const Camera& camera, const Options& op
     return o;
 }
 
-Report run(const Options& options) {
+Report run_render_variance(const RenderVarianceOptions& options) {
     Report report;
     report.table = fmt::format(
         "Variance of a sample over the squared mean: sphere under a sky, sun {} degrees wide\n"
@@ -94,13 +94,13 @@ Report run(const Options& options) {
 }  // namespace
 
 Task add_variance(CLI::App& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<RenderVarianceOptions>();
     CLI::App* app = program.add_subcommand("variance", "MIS beside lights and BRDF alone");
     app->add_option("--size", options->size, "of the picture [pixels]")->capture_default_str();
     app->add_option("--samples", options->samples, "a pixel")->capture_default_str();
     app->add_option("--sun-diameter", options->sun_diameter_deg, "[degrees]")
         ->capture_default_str();
-    return {app, [options] { return run(*options); }};
+    return {app, [options] { return run_render_variance(*options); }};
 }
 
 }  // namespace asperity::bench

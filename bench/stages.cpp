@@ -23,7 +23,7 @@ namespace asperity::bench {
 
 namespace {
 
-struct Options {
+struct StagesOptions {
     std::vector<std::string> surfaces = {"thesis-0.2", "gaussian-0.3"};
     int size = SurfaceSettings{}.size;
     double jitter = RunSettings{}.jitter;
@@ -67,7 +67,7 @@ Seconds run_once(const Experiment& experiment, int threads, const std::string& p
     return seconds;
 }
 
-Report run(const Options& options) {
+Report run_stages(const StagesOptions& options) {
     Report report;
     report.table = fmt::format(
         "Stages of a run of 15 layers, N = {}, {} rays a cell: milliseconds (share)\n{:<14}",
@@ -109,14 +109,14 @@ Report run(const Options& options) {
 }  // namespace
 
 Task add_stages(CLI::App& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<StagesOptions>();
     CLI::App* app = program.add_subcommand("stages", "where the time of a whole run goes");
     add_surface(*app, options->surfaces);
     add_size(*app, options->size);
     app->add_option("--jitter", options->jitter, "launch points per cell")->capture_default_str();
     app->add_option("--threads", options->threads, "0: all");
     add_repetitions(*app, options->repetitions);
-    return {app, [options] { return bench::run(*options); }};
+    return {app, [options] { return run_stages(*options); }};
 }
 
 }  // namespace asperity::bench

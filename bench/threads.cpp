@@ -13,7 +13,7 @@ namespace asperity::bench {
 
 namespace {
 
-struct Options {
+struct ThreadsOptions {
     std::vector<std::string> surfaces = {"gaussian-0.3", "thesis-0.2"};
     int size = 512;
     double theta_deg = 45;
@@ -32,7 +32,7 @@ struct Times {
     }
 };
 
-Report run(const Options& options) {
+Report run_threads(const ThreadsOptions& options) {
     Report report;
     report.table = fmt::format(
         "Threads: wall-clock seconds of {} beside one, N = {}, {}°\n"
@@ -74,7 +74,7 @@ Report run(const Options& options) {
 }  // namespace
 
 Task add_threads(CLI::App& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ThreadsOptions>();
     CLI::App* app = program.add_subcommand("threads", "several threads beside one");
     add_surface(*app, options->surfaces);
     add_size(*app, options->size);
@@ -83,7 +83,7 @@ Task add_threads(CLI::App& program) {
     app->add_option("--seconds", options->seconds, "one thread's work in a repetition, about")
         ->capture_default_str();
     add_repetitions(*app, options->repetitions);
-    return {app, [options] { return bench::run(*options); }};
+    return {app, [options] { return run_threads(*options); }};
 }
 
 }  // namespace asperity::bench
