@@ -177,20 +177,20 @@ void ExportTest::a_file_too_far_is_said() {
     ExportDialog& dialog = window().exporting();
     window().control<QComboBox>("export-source").setCurrentText("A model");
     auto& format = window().control<QComboBox>("export-format");
-    format.setCurrentIndex(format.findText("klems  (", Qt::MatchStartsWith));
+    format.setCurrentIndex(format.findText("csv  (", Qt::MatchStartsWith));
     auto& most = window().control<QLineEdit>("export-max-error");
     const QColor calm = most.palette().color(QPalette::Base);
     const auto message = [&] { return window().control<QLabel>("export-message").text(); };
     most.setText("abc");
-    dialog.write(scope_.path("k.xml"));
-    QVERIFY(!QFileInfo::exists(scope_.path("k.xml")));
+    dialog.write(scope_.path("k.csv"));
+    QVERIFY(!QFileInfo::exists(scope_.path("k.csv")));
     QVERIFY2(message().contains("abc"), qPrintable(message()));
     QVERIFY(most.palette().color(QPalette::Base) != calm);
     most.setText("0.01%");
-    window().write(dialog, scope_.path("k.xml"));
+    window().write(dialog, scope_.path("k.csv"));
     QVERIFY2(message().contains("holds the data within"), qPrintable(message()));
     most.setText("90%");
-    window().write(dialog, scope_.path("k.xml"));
+    window().write(dialog, scope_.path("k.csv"));
     QVERIFY2(message().endsWith("is written"), qPrintable(message()));
     // What is not read back has no error
     format.setCurrentIndex(format.findText("layers-csv  (", Qt::MatchStartsWith));

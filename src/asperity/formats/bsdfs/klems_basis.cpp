@@ -14,6 +14,15 @@ double square_of_sine(double angle_deg) {
     return s * s;
 }
 
+/// Grows with the azimuth of (x, y), from 0 to 4: what finds a patch without a call of atan2.
+double quarter_turns(double x, double y) {
+    const double size = std::abs(x) + std::abs(y);
+    if (size == 0) return 0;
+    const double t = y / size;
+    if (x < 0) return 2 - t;
+    return y < 0 ? 4 + t : t;
+}
+
 }  // namespace
 
 KlemsBasis::KlemsBasis(std::string_view kind) {
@@ -36,21 +45,29 @@ KlemsBasis::KlemsBasis(std::string_view kind) {
     }
     int first = 0;
     for (std::size_t k = 0; k < counts.size(); ++k) {
-        rings_.push_back({bounds[k], bounds[k + 1], counts[k], first});
+        const double tangent = std::tan(radians(bounds[k + 1]));
+        rings_.push_back({bounds[k], bounds[k + 1], counts[k], first, tangent * tangent, {}});
+        for (int patch = 0; patch < counts[k]; ++patch) {
+            const double end = 2 * kPi * (patch + 0.5) / counts[k];
+            rings_.back().turns.push_back(quarter_turns(std::cos(end), std::sin(end)));
+        }
         first += counts[k];
     }
 }
 
 int KlemsBasis::patch_of(Vec3 w) const {
-    const double theta = degrees(polar_angle(w));
+    const double sine = w.x * w.x + w.y * w.y, cosine = w.z * w.z;  // squared, of w's length
     const Ring* ring = &rings_.back();
     for (const Ring& r : rings_)
-        if (theta < r.high_deg) {
+        if (sine < r.high_tangent * cosine) {
             ring = &r;
             break;
         }
-    const int k = static_cast<int>(std::floor(azimuth(w) / (2 * kPi) * ring->patches + 0.5));
-    return ring->first + k % ring->patches;
+    const auto end =
+        std::upper_bound(ring->turns.begin(), ring->turns.end(), quarter_turns(w.x, w.y));
+    // Beyond the end of the last one begins the first again
+    return ring->first +
+           (end == ring->turns.end() ? 0 : static_cast<int>(end - ring->turns.begin()));
 }
 
 const KlemsBasis::Ring& KlemsBasis::ring_of(int patch) const {
