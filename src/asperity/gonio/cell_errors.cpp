@@ -22,22 +22,30 @@ CellErrors::CellErrors(const Measurement& m, const Layer& layer)
         all_rays_ += rays_[g];
         groups_ += groups.rays[g] > 0;
     }
-    for (std::size_t k = 0; k < kGroups * grid_.blocks() * channels_; ++k)
-        group_energy_.push_back(energy_fraction(groups.energy[k], 1));
-    block_energy_.resize(channels_ * grid_.blocks());
+    const std::size_t blocks = grid_.blocks();
+    group_energy_.resize(channels_ * blocks * kGroups);
+    for (std::size_t k = 0; k < group_energy_.size(); ++k)
+        group_energy_[(k % channels_ * blocks + k / channels_ % blocks) * kGroups +
+                      k / channels_ / blocks] = energy_fraction(groups.energy[k], 1);
+    block_of_.resize(cells_);
+    for (std::size_t cell = 0; cell < cells_; ++cell)
+        block_of_[cell] = static_cast<std::uint32_t>(grid_.block_of(cell));
+    block_energy_.resize(channels_ * blocks);
+    energy_.reserve(channels_ * cells_);
+    error_.reserve(channels_ * cells_);
     for (std::size_t c = 0; c < channels_; ++c) {
         for (std::size_t cell = 0; cell < cells_; ++cell) {
             const double e = m.energy(layer, static_cast<int>(c), static_cast<int>(cell));
             energy_.push_back(e);
-            block_energy_[c * grid_.blocks() + grid_.block_of(cell)] += e;
+            block_energy_[c * blocks + block_of_[cell]] += e;
             error_.push_back(e > 0 ? double{layer.stderr_energy[c * cells_ + cell]} : 0.0);
         }
         const double alike = std::sqrt(likeness(c));
-        block_square_.resize((c + 1) * grid_.blocks());
+        block_square_.resize((c + 1) * blocks);
         for (std::size_t cell = 0; cell < cells_; ++cell) {
             double& error = error_[c * cells_ + cell];
             error *= alike;
-            block_square_[c * grid_.blocks() + grid_.block_of(cell)] += error * error;
+            block_square_[c * blocks + block_of_[cell]] += error * error;
         }
     }
     find_known(layer);
@@ -68,7 +76,7 @@ double CellErrors::likeness(std::size_t channel) const {
     for (std::size_t b = 0; b < grid_.blocks(); ++b) {
         std::array<double, kGroups> sum{};
         for (std::size_t g = 0; g < kGroups; ++g)
-            sum[g] = group_energy_[(g * grid_.blocks() + b) * channels_ + channel];
+            sum[g] = group_energy_[(channel * grid_.blocks() + b) * kGroups + g];
         found += covariance(sum, sum);
     }
     for (std::size_t cell = 0; cell < cells_; ++cell) {
@@ -105,16 +113,16 @@ std::array<double, CellErrors::kGroups> CellErrors::group_sums(std::span<const d
         std::fill(mean.begin(), mean.end(), 0.0);
         const std::size_t first = c * cells_;
         for (std::size_t cell = 0; cell < cells_; ++cell)
-            mean[grid_.block_of(cell)] += weights[first + cell] * energy_[first + cell];
+            mean[block_of_[cell]] += weights[first + cell] * energy_[first + cell];
         for (std::size_t b = 0; b < mean.size(); ++b) {
             const double whole = block_energy_[c * mean.size() + b];
             mean[b] = whole > 0 ? mean[b] / whole : 0.0;
             for (std::size_t g = 0; mean[b] != 0 && g < kGroups; ++g)
-                sums[g] += mean[b] * group_energy_[(g * mean.size() + b) * channels_ + c];
+                sums[g] += mean[b] * group_energy_[(c * mean.size() + b) * kGroups + g];
         }
         if (grid_.height * grid_.width == 1) continue;
         for (std::size_t cell = 0; cell < cells_; ++cell) {
-            const double apart = weights[first + cell] - mean[grid_.block_of(cell)];
+            const double apart = weights[first + cell] - mean[block_of_[cell]];
             parts[cell] += apart * error_[first + cell];
             if (!known_.empty()) parts[cells_] += apart * known_[first + cell];
         }
@@ -129,7 +137,7 @@ double CellErrors::error_of_cells(std::size_t channel, std::span<const int> cell
     std::map<std::size_t, Taken> taken;
     for (const int cell : cells) {
         const std::size_t k = static_cast<std::size_t>(cell);
-        Taken& block = taken[grid_.block_of(k)];
+        Taken& block = taken[block_of_[k]];
         block.energy += energy_[channel * cells_ + k];
         block.square += error_[channel * cells_ + k] * error_[channel * cells_ + k];
     }
@@ -139,8 +147,7 @@ double CellErrors::error_of_cells(std::size_t channel, std::span<const int> cell
         if (part.energy <= 0) continue;
         const std::size_t b = channel * grid_.blocks() + block;
         const double share = part.energy / block_energy_[b], rest = 1 - share;
-        for (std::size_t g = 0; g < kGroups; ++g)
-            sums[g] += share * group_energy_[(g * grid_.blocks() + block) * channels_ + channel];
+        for (std::size_t g = 0; g < kGroups; ++g) sums[g] += share * group_energy_[b * kGroups + g];
         if (grid_.height * grid_.width > 1)
             parts += rest * rest * part.square +
                      share * share * std::max(0.0, block_square_[b] - part.square);

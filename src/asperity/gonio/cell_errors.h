@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -59,10 +60,10 @@ class CellErrors {
     std::size_t channels_, cells_;
     std::array<double, kGroups> rays_{};
     double all_rays_ = 0;
-    int groups_ = 0;  ///< that have rays
-    std::vector<double>
-        group_energy_;            ///< [(group * blocks + block) * channels + channel], in rays
-    std::vector<double> energy_;  ///< [channel * cells + cell]
+    int groups_ = 0;                       ///< that have rays
+    std::vector<std::uint32_t> block_of_;  ///< [cell]
+    std::vector<double> group_energy_;  ///< [(channel * blocks + block) * groups + group], in rays
+    std::vector<double> energy_;        ///< [channel * cells + cell]
     std::vector<double> block_energy_;  ///< [channel * blocks + block]
     std::vector<double> error_;         ///< of a cell, so alike as they are in a block; as energy_
     std::vector<double> known_;         ///< what one sigma more of solved light brings, as energy_

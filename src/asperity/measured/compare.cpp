@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
+#include <asperity/core/parallel.h>
 #include <asperity/gonio/cell_errors.h>
 #include <asperity/measured/compare.h>
 #include <asperity/measured/tabulated.h>
@@ -53,10 +54,12 @@ void require_channels(int a, int b) {
 
 /// By how much the figures of a comparison change with each energy of one side, to first order.
 struct Slopes {
-    std::vector<double> albedo, l1, rms;  ///< [channel * cells + cell] of the side
+    std::vector<double> albedo, l1, rms;  ///< [channel * cells + cell]; empty: of no use
 
-    explicit Slopes(const Lobes& side)
-        : albedo(side.energy.size()), l1(side.energy.size()), rms(side.energy.size()) {}
+    explicit Slopes(const Lobes& side) {
+        if (!side.errors) return;
+        for (std::vector<double>* slopes : {&albedo, &l1, &rms}) slopes->resize(side.energy.size());
+    }
 };
 
 /// Standard error of a figure that is about `value`, from those of both sides' energies; NaN where
@@ -104,6 +107,7 @@ LayerComparison compare_lobes(const Lobes& a, const Lobes& b, const Detector& de
             result.l1_noise += share * noise_to_l1 * noise;
             const double sign = difference > 0 ? 1 : difference < 0 ? -1 : 0;
             const auto change = [&](Slopes& slopes, std::size_t k, double side) {
+                if (slopes.l1.empty()) return;
                 slopes.albedo[k] += side * share;
                 slopes.l1[k] += side * share * sign;
                 slopes.rms[k] += side * share * difference / solid_angle;
@@ -205,12 +209,18 @@ Comparison compare_between_layers(const Measurement& a, const Measurement& b, co
 Comparison compare(const Measurement& a, const Bsdf& b, int threads) {
     require_channels(a.channels(), b.channels());
     Comparison result{a.surface_name, b.name(), {}};
-    for (const Layer& layer : a.layers) {
-        CellAverages model = average_over_cells(b, a.detector, layer.theta_i, layer.phi_i,
-                                                a.experiment.illumination.isotropic, threads);
-        add(result, compare_lobes(lobes_of(a, layer), lobes_of(std::move(model)), a.detector),
-            layer.number, layer.theta_i, layer.phi_i);
-    }
+    // Layers side by side, or what is in one where there are fewer of them than threads
+    const bool apart = a.layers.size() >= static_cast<std::size_t>(std::max(1, threads));
+    std::vector<LayerComparison> found(a.layers.size());
+    parallel_for(found.size(), apart ? threads : 1, [&](std::size_t k) {
+        const Layer& layer = a.layers[k];
+        CellAverages model =
+            average_over_cells(b, a.detector, layer.theta_i, layer.phi_i,
+                               a.experiment.illumination.isotropic, apart ? 1 : threads);
+        found[k] = compare_lobes(lobes_of(a, layer), lobes_of(std::move(model)), a.detector);
+    });
+    for (std::size_t k = 0; k < found.size(); ++k)
+        add(result, found[k], a.layers[k].number, a.layers[k].theta_i, a.layers[k].phi_i);
     summarise(result);
     return result;
 }
