@@ -128,7 +128,8 @@ def test_compare_is_that_of_the_program(gold, program, tmp_path):
     assert [layer["l1"] for layer in told["layers"]] == pytest.approx(c.l1.tolist(), rel=1e-12)
     for name in ("l1_stderr", "rms_stderr"):
         assert [layer[name] for layer in told["layers"]] == pytest.approx(getattr(c, name).tolist(), rel=1e-9)
-        assert (getattr(c, name) > 0).all()
+        # Straight down, isotropic, all of this surface's facets are solved: nothing is left to chance
+        assert (getattr(c, name)[1:] > 0).all()
     assert c.mean_l1_stderr == pytest.approx(told["mean_l1_stderr"], rel=1e-9) and 0 < c.mean_l1_stderr < c.mean_l1
     turned = asperity.compare("ggx:alpha=0.3,material=Au", gold)
     np.testing.assert_array_equal(turned.albedo_b, c.albedo_a)
