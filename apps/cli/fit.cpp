@@ -107,10 +107,6 @@ std::string text_of_report(const FitReport& report, const FitData& data) {
     return text;
 }
 
-Json number(double x) {
-    return std::isfinite(x) ? Json(x) : Json();
-}
-
 const char* name_of(FitGrade grade) {
     switch (grade) {
         case FitGrade::WithinErrors:
@@ -130,7 +126,7 @@ Json json_of(const Fit& fit) {
                  {"spec", fit.spec},
                  {"grade", name_of(grade(fit))},
                  {"misfit", fit.misfit},
-                 {"chi2_per_dof", number(fit.chi2_per_dof)},
+                 {"chi2_per_dof", number_or_null(fit.chi2_per_dof)},
                  {"mean_l1", fit.mean_l1},
                  {"mean_noise", fit.mean_noise},
                  {"max_albedo_difference", fit.max_albedo_difference},
@@ -140,7 +136,7 @@ Json json_of(const Fit& fit) {
         json["params"].push_back({{"name", p.key},
                                   {"entry", p.entry < 0 ? Json() : Json(p.entry)},
                                   {"value", p.value},
-                                  {"error", number(p.error)},
+                                  {"error", number_or_null(p.error)},
                                   {"at_end", p.at_end}});
     return json;
 }

@@ -83,11 +83,6 @@ Json layer_json(const Measurement& m, const Layer& layer) {
     return json;
 }
 
-/// null where it is not known.
-Json number_or_null(double value) {
-    return std::isfinite(value) ? Json(value) : Json();
-}
-
 // A setting that is left open is null.
 Json json_of(std::monostate) {
     return nullptr;
@@ -146,6 +141,10 @@ Json to_json(const Measurement& m, const std::string& checksum) {
     json["layers"] = Json::array();
     for (const Layer& layer : m.layers) json["layers"].push_back(layer_json(m, layer));
     return json;
+}
+
+Json number_or_null(double value) {
+    return std::isfinite(value) ? Json(value) : Json();
 }
 
 Json to_json(const Comparison& comparison) {

@@ -24,6 +24,9 @@ Json to_json(const Comparison& comparison);
 /// {"rays": 10000, ...}: numbers as numbers, lists as arrays, what is left open as null.
 Json to_json(const Experiment& experiment);
 
+/// null where it is not known, infinite or NaN.
+Json number_or_null(double value);
+
 /// How far the lobes of layers lie apart, of a fit or of a file written: one object each.
 template <typename Layer>
 Json distances_json(const std::vector<Layer>& layers) {

@@ -94,9 +94,9 @@ class DesignEffects {
   public:
     void add(const FitBlock& block, const Measurement& m, const Layer& layer,
              const CellErrors& errors) {
+        if (block.cells() < 2) return;
         const std::vector<int> cells = cells_of(block, m.detector.columns());
-        if (cells.size() < 2) return;
-        Sums& sums = sums_[size_class(cells.size())];
+        Sums& sums = sums_[size_class(block)];
         for (int c = 0; c < m.channels(); ++c) {
             const double error = errors.error_of_cells(static_cast<std::size_t>(c), cells);
             sums.found += error * error;
@@ -110,8 +110,7 @@ class DesignEffects {
     }
 
     double of(const FitBlock& block) const {
-        const int cells = (block.row1 - block.row0) * (block.column1 - block.column0);
-        return cells < 2 ? 1.0 : ratio(sums_[size_class(static_cast<std::size_t>(cells))]);
+        return block.cells() < 2 ? 1.0 : ratio(sums_[size_class(block)]);
     }
 
   private:
@@ -120,15 +119,15 @@ class DesignEffects {
         double found = 0, apart = 0;
         int blocks = 0;
     };
-    static std::size_t size_class(std::size_t cells) {
-        return static_cast<std::size_t>(std::bit_width(cells));
+    static std::size_t size_class(const FitBlock& block) {
+        return static_cast<std::size_t>(std::bit_width(static_cast<unsigned>(block.cells())));
     }
     static double ratio(const Sums& sums) {
         const bool told = sums.blocks >= kFewest && sums.found > 0 && sums.apart > 0;
         return told && std::isfinite(sums.found) ? sums.found / sums.apart : 1.0;
     }
 
-    std::array<Sums, 65> sums_{};
+    std::array<Sums, 33> sums_{};
 };
 
 /// Takes variances of blocks of several cells from batches.
@@ -144,8 +143,7 @@ void tell_blocks_from_batches(FitData& data, const Measurement& m,
             effects.add(data.blocks[b], m, *layers[l], *fitted.errors);
         for (std::size_t b = fitted.first_block; b < end; ++b) {
             const double effect = effects.of(data.blocks[b]);
-            const bool several = data.blocks[b].row1 - data.blocks[b].row0 > 1 ||
-                                 data.blocks[b].column1 - data.blocks[b].column0 > 1;
+            const bool several = data.blocks[b].cells() > 1;
             for (std::size_t k = b * channels; k < (b + 1) * channels; ++k) {
                 before += several ? data.spread[k] * data.energy[k] : 0.0;
                 data.spread[k] *= effect;

@@ -26,6 +26,8 @@ struct FitBlock {
     int row0 = 0, row1 = 0, column0 = 0, column1 = 0;
     double solid_angle = 0;  ///< [sr]
     std::size_t first_node = 0, nodes = 0;
+
+    int cells() const { return (row1 - row0) * (column1 - column0); }
 };
 
 /// A direction in a block and the projected solid angle it stands for [sr].

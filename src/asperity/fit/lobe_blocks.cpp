@@ -110,7 +110,7 @@ class Cutter {
     }
 
     void cut(FitBlock b, const std::vector<double>& spreads) {
-        const int cells = (b.row1 - b.row0) * (b.column1 - b.column0);
+        const int cells = b.cells();
         b.solid_angle = solid_angle(b);
         const bool bright = energy_of(b) > kLargestShare * total_ && rays_of(b) > kFewestRays;
         if (cells == 1 || (b.solid_angle <= kLargestBlock && !bright)) return keep(b, spreads);

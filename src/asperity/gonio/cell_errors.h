@@ -66,8 +66,8 @@ class CellErrors {
     std::vector<double> energy_;        ///< [channel * cells + cell]
     std::vector<double> block_energy_;  ///< [channel * blocks + block]
     std::vector<double> error_;         ///< of a cell, so alike as they are in a block; as energy_
+    std::vector<double> block_square_;  ///< sum of the squares of error_, as block_energy_
     std::vector<double> known_;         ///< what one sigma more of solved light brings, as energy_
-    std::vector<double> block_square_;  ///< sum of their squares, as block_energy_
 };
 
 }  // namespace asperity

@@ -4,13 +4,13 @@
 #include <asperity/core/directions.h>
 #include <asperity/measured/baked_brdf.h>
 #include <asperity/measured/baked_tables.h>
+#include <asperity/measured/cosine_share.h>
 
 namespace asperity {
 
 namespace {
 
-/// Share of the samples drawn from a cosine, so that no direction with light is left out.
-constexpr double kBakedCosineShare = 0.1;
+using detail::kCosineShare;
 
 /// The whole part of x >= 0, at most `most`.
 int whole(double x, int most) {
@@ -186,7 +186,7 @@ double BakedBrdf::eval_pdf(Vec3 wi, Vec3 wo, std::span<double> f) const {
         return 0;
     }
     const double density = tables_->look(wi, wo, f.data());
-    return kBakedCosineShare * wo.z / kPi + (1 - kBakedCosineShare) * density;
+    return kCosineShare * wo.z / kPi + (1 - kCosineShare) * density;
 }
 
 void BakedBrdf::eval(Vec3 wi, Vec3 wo, std::span<double> f) const {
@@ -200,15 +200,15 @@ double BakedBrdf::pdf(Vec3 wi, Vec3 wo) const {
 
 std::optional<BsdfSample> BakedBrdf::sample(Vec3 wi, double u1, double u2) const {
     if (wi.z <= 0) return std::nullopt;
-    if (u1 < kBakedCosineShare) {
-        const Vec3 wo = sample_cosine(u1 / kBakedCosineShare, u2);
+    if (u1 < kCosineShare) {
+        const Vec3 wo = sample_cosine(u1 / kCosineShare, u2);
         return BsdfSample{wo, pdf(wi, wo)};
     }
-    const double u = (u1 - kBakedCosineShare) / (1 - kBakedCosineShare);
+    const double u = (u1 - kCosineShare) / (1 - kCosineShare);
     BsdfSample drawn =
         isotropic_ ? tables_->draw<true>(wi, u, u2) : tables_->draw<false>(wi, u, u2);
     if (drawn.wo.z <= 0) return std::nullopt;
-    drawn.pdf = kBakedCosineShare * drawn.wo.z / kPi + (1 - kBakedCosineShare) * drawn.pdf;
+    drawn.pdf = kCosineShare * drawn.wo.z / kPi + (1 - kCosineShare) * drawn.pdf;
     return drawn;
 }
 

@@ -5,6 +5,7 @@
 #include <asperity/core/error.h>
 #include <asperity/core/parallel.h>
 #include <asperity/measured/baked_brdf.h>
+#include <asperity/measured/cosine_share.h>
 #include <asperity/measured/layer_table.h>
 #include <asperity/measured/lobe_guide.h>
 #include <asperity/measured/tabulated.h>
@@ -24,8 +25,7 @@ constexpr double kSameAngle = 1e-9;  ///< [rad]
 /// A layer as steep as this [rad] shows the distribution of normals.
 constexpr double kNearNormal = 0.2;
 
-/// Share of the samples drawn from a cosine, so that no direction with light is left out.
-constexpr double kCosineShare = 0.1;
+using detail::kCosineShare;
 
 /// How much a layer is worth where its own light leaves with this cosine: less near the horizon,
 /// next to nothing below, but never nothing, so that one layer alone still counts.

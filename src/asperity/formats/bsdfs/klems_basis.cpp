@@ -59,7 +59,7 @@ int KlemsBasis::patch_of(Vec3 w) const {
     const double sine = w.x * w.x + w.y * w.y, cosine = w.z * w.z;  // squared, of w's length
     const Ring* ring = &rings_.back();
     for (const Ring& r : rings_)
-        if (sine < r.high_tangent * cosine) {
+        if (sine < r.squared_tangent * cosine) {
             ring = &r;
             break;
         }

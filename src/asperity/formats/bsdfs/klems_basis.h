@@ -17,8 +17,8 @@ class KlemsBasis {
     struct Ring {
         double low_deg = 0, high_deg = 0;
         int patches = 0, first = 0;
-        double high_tangent = 0;    ///< squared, of high_deg
-        std::vector<double> turns;  ///< [patch] where it ends, as a quarter_turns()
+        double squared_tangent = 0;  ///< of high_deg
+        std::vector<double> turns;   ///< [patch] where it ends, as a quarter_turns()
     };
 
     /// "full" (145 patches), "half" (77) or "quarter" (41); throws Error(Usage, "basis").
