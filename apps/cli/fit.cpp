@@ -60,7 +60,7 @@ std::string param_name(const FittedParam& p) {
 
 std::string value_text(const FittedParam& p) {
     if (p.at_end) return fmt::format("{:.4g} (end of its range)", p.value);
-    if (!(p.error > 0)) return fmt::format("{:.4g}(?)", p.value);
+    if (!(p.error > 0)) return fmt::format("{:.4g} (not determined)", p.value);
     return with_error(p.value, p.error);
 }
 

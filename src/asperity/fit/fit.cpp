@@ -99,16 +99,6 @@ void add_layers(Fit& fit, const FitData& data) {
     }
 }
 
-/// What of the mean square of the residuals is noise, and what the model's.
-detail::MeanSquares mean_squares(const FitData& data, const detail::Residuals& residuals,
-                                 const detail::Solution& best, FitMetric metric, double mean) {
-    if (metric == FitMetric::Chi2) return {1, std::max(0.0, mean - 1)};
-    if (!data.has_batches()) return {mean, 0};
-    const double chi2 =
-        detail::chi2_per_dof(data, residuals.energy(best.values), residuals.params());
-    return {mean, chi2 > 1 ? mean * (1 - 1 / chi2) : 0.0};
-}
-
 }  // namespace
 
 Fit fit_model(const FitData& data, const FreeModel& model, FitMetric metric, int threads) {
@@ -124,12 +114,7 @@ Fit fit_model(const FitData& data, const FreeModel& model, FitMetric metric, int
         residuals.expect(residuals.energy(best.values));
         best = detail::solve(residuals, best.values, kPrecisely);
     }
-    const double dof = static_cast<double>(
-        metric == FitMetric::Chi2
-            ? data.blocks.size() - std::min(data.blocks.size() - 1, residuals.params())
-            : residuals.size() - residuals.params());
-    detail::set_errors(residuals, best,
-                       mean_squares(data, residuals, best, metric, best.sum / dof));
+    detail::set_errors(residuals, best);
 
     Fit fit;
     std::vector<double> values;

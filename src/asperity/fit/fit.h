@@ -70,15 +70,14 @@ struct Fit {
 /// that the model expects (FitData::spread), found anew three times: weights by the rays that were
 /// counted would draw everything down.
 ///
-/// Errors of parameters have two parts. That of the light comes from batches, which tell what all
-/// blocks of a layer do together (CellErrors); data without batches count blocks as independent and
-/// the channels of a ray as one. That of the model is (J^T J)^-1 (chi^2/dof - 1), where it fits
-/// worse than the errors allow: blocks are taken to be missed each for itself, so it is a hint and
-/// no interval of a class of surfaces; for that measure many (`surfaces`), 48 and more, as 16
-/// batches know the weights of blocks so badly that errors are too small by a sixth. Variances of
-/// blocks of several cells are those of batches, so chi^2/dof is 1 in the mean for a true model.
-/// Same result for any number of threads. Throws Error(Usage, ...) for a model that the data do not
-/// go with.
+/// Errors of parameters are those of the light: how the fit would spread with other rays on the
+/// same surfaces, whether the model describes them or not. They come from batches, which tell what
+/// all blocks of a layer do together (CellErrors); data without batches count blocks as independent
+/// and the channels of a ray as one, data without errors take the residuals for noise. They are
+/// intervals of a class only for measurements of many of its surfaces (`surfaces`), 48 and more;
+/// from 16 they are too small by a sixth. Variances of blocks of several cells are those of
+/// batches, so chi^2/dof is 1 in the mean for a true model. Same result for any number of threads.
+/// Throws Error(Usage, ...) for a model that the data do not go with.
 Fit fit_model(const FitData& data, const FreeModel& model, FitMetric metric, int threads);
 
 /// All that `settings` ask for; see fit_models().

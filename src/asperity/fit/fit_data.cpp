@@ -30,11 +30,38 @@ int rows_below(const Detector& detector, double last_theta) {
 /// Of the variance that counting rays would have, the least that is believed.
 constexpr double kLeastVariance = 0.1;
 
-/// Energies and variances of a layer. The light of one bounce order has its share of the variance
-/// of all. Where each batch meets each facet, as at normal incidence, batches agree to a rounding;
-/// such a layer would count for a million of the others.
+/// The share of a cell's variance that the light fitted to has. On one surface light of solved
+/// facets, reflected once, is known: what is followed varies, and by the share of one reflection in
+/// *it*. Between surfaces all varies.
+class VaryingShare {
+  public:
+    VaryingShare(const Measurement& m, const Layer& layer, FitLight light)
+        : m_(m),
+          layer_(layer),
+          all_(light == FitLight::All),
+          solved_(m.experiment.run.surfaces <= 1 && !layer.spread.exact.empty()) {}
+
+    double operator()(int channel, int cell) const {
+        if (all_) return 1;
+        const auto k = static_cast<std::size_t>(channel * m_.detector.cells() + cell);
+        const double all = m_.energy(layer_, channel, cell);
+        const double once = m_.energy(layer_, 0, channel, cell);
+        const double known =
+            solved_ ? std::min(once, energy_fraction(layer_.spread.exact[k], layer_.rays)) : 0;
+        return all > known ? (once - known) / (all - known) : 0;
+    }
+
+  private:
+    const Measurement& m_;
+    const Layer& layer_;
+    bool all_, solved_;
+};
+
+/// Energies and variances of a layer. Where each batch meets each facet, as at normal incidence,
+/// batches agree to a rounding; such a layer would count for a million of the others.
 detail::LayerEnergies energies_of(const Measurement& m, const Layer& layer, FitLight light) {
     detail::LayerEnergies values;
+    const VaryingShare share(m, layer, light);
     const int cells = m.detector.cells();
     for (int channel = 0; channel < m.channels(); ++channel) {
         double sum = 0;
@@ -42,13 +69,13 @@ detail::LayerEnergies energies_of(const Measurement& m, const Layer& layer, FitL
         const double least =
             layer.rays > 0 ? kLeastVariance * sum / static_cast<double>(layer.rays) : 0.0;
         for (int cell = 0; cell < cells; ++cell) {
-            const double all = m.energy(layer, channel, cell);
-            const double energy = light == FitLight::All ? all : m.energy(layer, 0, channel, cell);
+            const double energy = light == FitLight::All ? m.energy(layer, channel, cell)
+                                                         : m.energy(layer, 0, channel, cell);
             values.energy.push_back(energy);
             if (layer.stderr_energy.empty()) continue;
             const double error = static_cast<double>(
                 layer.stderr_energy[static_cast<std::size_t>(channel * cells + cell)]);
-            const double variance = all > 0 ? error * error * energy / all : 0.0;
+            const double variance = error * error * share(channel, cell);
             values.variance.push_back(error > 0 ? std::max(variance, least * energy) : variance);
         }
     }
@@ -68,14 +95,13 @@ void believe_least(detail::LayerEnergies& values, const Layer& layer, int channe
     }
 }
 
-/// The part that light of one reflection has in the errors of all, see energies_of().
+/// What errors of all light are times for those of the light fitted to.
 std::vector<double> error_share(const Measurement& m, const Layer& layer, FitLight light) {
+    const VaryingShare varying(m, layer, light);
     std::vector<double> share;
     for (int channel = 0; light == FitLight::Single && channel < m.channels(); ++channel)
-        for (int cell = 0; cell < m.detector.cells(); ++cell) {
-            const double all = m.energy(layer, channel, cell);
-            share.push_back(all > 0 ? std::sqrt(m.energy(layer, 0, channel, cell) / all) : 0.0);
-        }
+        for (int cell = 0; cell < m.detector.cells(); ++cell)
+            share.push_back(std::sqrt(varying(channel, cell)));
     return share;
 }
 

@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <random>
 
 namespace asperity {
@@ -57,6 +56,7 @@ Measurement counted(const Experiment& e, const std::vector<double>& energy, int 
 }
 
 struct Pulls {
+    std::vector<Fit> fits;            ///< a trial
     std::vector<double> pulls, chi2;  ///< (found - true) / error, a parameter and trial
     double share_within_3 = 0, mean = 0, mean_chi2 = 0;
 };
@@ -69,17 +69,18 @@ Pulls trials(const std::string& truth, const std::string& model, const std::vect
     const CellAverages exact =
         average_over_cells(*bsdf, Detector(e.detector), radians(30), 0, false, 2);
     Pulls result;
-    std::mutex mutex;
+    result.fits.resize(count);
     parallel_for(count, 2, [&](std::size_t trial) {
         const Measurement m = counted(e, exact.energy, 1, static_cast<unsigned>(trial + 1));
         const FitData data = fit_data(m, FitLight::All, radians(90));
-        const Fit fit =
+        result.fits[trial] =
             fit_model(data, free_model(model, data, FitReflectance::Run, {}), FitMetric::Chi2, 1);
-        const std::lock_guard lock(mutex);
+    });
+    for (const Fit& fit : result.fits) {
         result.chi2.push_back(fit.chi2_per_dof);
         for (std::size_t k = 0; k < values.size(); ++k)
             result.pulls.push_back((fit.params[k].value - values[k]) / fit.params[k].error);
-    });
+    }
     for (const double pull : result.pulls) {
         result.share_within_3 += (std::abs(pull) <= 3) / double(result.pulls.size());
         result.mean += pull / double(result.pulls.size());
@@ -113,6 +114,22 @@ TEST(Fit, NoisyTablesGiveStudentTBack) {
 
 TEST(Fit, NoisyTablesGiveAbgBack) {
     expect_truth(trials("abg:a=0.05,b=0.02,g=1.8", "abg", {0.05, 0.02, 1.8}, 40));
+}
+
+/// A model that is wrong has a best value, too, and its error tells how that would fall out with
+/// other rays; not more because it fits badly.
+TEST(Fit, ErrorsOfAWrongModelAreThoseOfTheRays) {
+    const Pulls tables = trials("beckmann:alpha=0.4", "ggx", {}, 200);
+    EXPECT_GT(tables.mean_chi2, 4);
+    const auto count = static_cast<double>(tables.fits.size());
+    double mean = 0, found = 0, quoted = 0;
+    for (const Fit& fit : tables.fits) {
+        mean += fit.params[0].value / count;
+        quoted += fit.params[0].error * fit.params[0].error / count;
+    }
+    for (const Fit& fit : tables.fits)
+        found += (fit.params[0].value - mean) * (fit.params[0].value - mean) / (count - 1);
+    EXPECT_NEAR(std::sqrt(quoted / found), 1, 0.15);  // known to a twentieth
 }
 
 TEST(Fit, NoisyTablesGiveGgxPlusLambertBack) {

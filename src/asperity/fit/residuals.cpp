@@ -23,11 +23,32 @@ double shown_slope(FitMetric metric, double v) {
     return 1;
 }
 
-/// Variance of block and channel k for a model that expects `energy` there; where it expects much
-/// less than there is, or less than a ray, its guess is not believed.
-double variance_of(const FitData& data, std::size_t k, double energy) {
-    const double ray = data.spread[k];
-    return ray * std::max({energy, 0.25 * data.energy[k], ray});
+/// The least that is believed of what a model expects where rays of this weight brought `found`:
+/// not much less than that, nor less than a ray.
+double least_expected(double ray, double found) {
+    return std::max(0.25 * found, ray);
+}
+
+double variance_of(double ray, double found, double expected) {
+    return ray * std::max(expected, least_expected(ray, found));
+}
+
+/// Variance over energy in each layer, [block * channels + channel].
+std::vector<double> mean_spread(const FitData& data) {
+    if (!data.has_errors()) return {};
+    const auto channels = static_cast<std::size_t>(data.channels);
+    std::vector<double> energy(data.layers.size() * channels), variance(energy.size());
+    for (std::size_t k = 0; k < data.energy.size(); ++k) {
+        const std::size_t at = data.blocks[k / channels].layer * channels + k % channels;
+        energy[at] += data.energy[k];
+        variance[at] += data.spread[k] * data.energy[k];
+    }
+    std::vector<double> spread(data.energy.size());
+    for (std::size_t k = 0; k < spread.size(); ++k) {
+        const std::size_t at = data.blocks[k / channels].layer * channels + k % channels;
+        spread[k] = energy[at] > 0 ? variance[at] / energy[at] : 0;
+    }
+    return spread;
 }
 
 double shown(FitMetric metric, double v) {
@@ -47,7 +68,7 @@ double shown(FitMetric metric, double v) {
 }  // namespace
 
 Residuals::Residuals(const FitData& data, const FreeModel& model, FitMetric metric, int threads)
-    : data_(data), model_(model), metric_(metric), threads_(threads) {
+    : data_(data), model_(model), metric_(metric), threads_(threads), ray_(mean_spread(data)) {
     weights_.assign(data.energy.size(), 0.0);
     const auto channels = static_cast<std::size_t>(data.channels);
     double total = 0;
@@ -65,7 +86,7 @@ void Residuals::expect(const std::vector<double>& energy) {
     counts_ = false;
     const auto channels = static_cast<std::size_t>(data_.channels);
     for (std::size_t k = 0; k < weights_.size(); ++k) {
-        const double variance = variance_of(data_, k, energy[k]) * data_.channels;
+        const double variance = variance_of(ray_[k], data_.energy[k], energy[k]) * data_.channels;
         weights_[k] =
             variance > 0 ? data_.blocks[k / channels].solid_angle / std::sqrt(variance) : 0;
     }
@@ -84,7 +105,7 @@ std::vector<double> Residuals::of_energy(const std::vector<double>& energy) cons
     std::vector<double> residuals(energy.size());
     for (std::size_t k = 0; k < energy.size(); ++k) {
         if (counts_) {
-            const double ray = data_.spread[k];
+            const double ray = ray_[k];
             if (!(ray > 0)) continue;
             const double n = data_.energy[k] / ray, m = energy[k] / ray;
             residuals[k] = (std::sqrt(4 * m + 1) - std::sqrt(n) - std::sqrt(n + 1)) /
@@ -105,6 +126,23 @@ std::vector<double> Residuals::slopes() const {
         slopes[k] = weights_[k] * shown_slope(metric_, data_.energy[k] / solid_angle) / solid_angle;
     }
     return slopes;
+}
+
+std::vector<double> Residuals::noise() const {
+    std::vector<double> squares = slopes();
+    for (std::size_t k = 0; k < squares.size(); ++k) {
+        const double found = data_.energy[k];
+        squares[k] *= squares[k] * variance_of(data_.spread[k], found, found) * data_.channels;
+    }
+    return squares;
+}
+
+std::vector<double> Residuals::growth(const std::vector<double>& energy) const {
+    std::vector<double> growth(energy.size(), 1.0);
+    for (std::size_t k = 0; metric_ == FitMetric::Chi2 && k < energy.size(); ++k)
+        if (energy[k] > least_expected(ray_[k], data_.energy[k]))
+            growth[k] = data_.energy[k] / energy[k];
+    return growth;
 }
 
 std::vector<double> score_covariances(const Residuals& residuals,
@@ -143,7 +181,7 @@ double chi2_per_dof(const FitData& data, const std::vector<double>& energy, std:
         return std::numeric_limits<double>::quiet_NaN();
     double sum = 0;
     for (std::size_t k = 0; k < energy.size(); ++k) {
-        const double variance = variance_of(data, k, energy[k]);
+        const double variance = variance_of(data.spread[k], data.energy[k], energy[k]);
         const double difference = energy[k] - data.energy[k];
         if (variance > 0) sum += difference * difference / (variance * data.channels);
     }

@@ -23,6 +23,16 @@ class Residuals {
     /// no slope.
     std::vector<double> slopes() const;
 
+    /// Mean squares of the residuals by the errors of the data, blocks taken as independent and the
+    /// channels of a ray as one. Of data that have errors.
+    std::vector<double> noise() const;
+
+    /// By how much a residual's part of the score J^T r grows with the parameters, over the square
+    /// of its J, beside how J bends: less than 1 where the model, whose energies are given, expects
+    /// more than there is and its weights follow it. For Chi2 it is data / model then, as in a
+    /// likelihood of counts.
+    std::vector<double> growth(const std::vector<double>& energy) const;
+
     /// For Chi2: variances from now on as a model of these energies expects them. Before, residuals
     /// are those of Freeman and Tukey 1950, sqrt(n) + sqrt(n + 1) - sqrt(4 m + 1) for n rays where
     /// m are expected: of unit variance without knowing m, and no wrong model goes far astray.
@@ -39,6 +49,9 @@ class Residuals {
     FitMetric metric_;
     int threads_;
     bool counts_ = false;  ///< residuals of numbers of rays
+    /// What a ray weighs, for weights of Chi2: variance over energy of the whole layer. That of
+    /// single blocks is known too badly, and so much of what a model misses would come and go.
+    std::vector<double> ray_;
     std::vector<double> weights_;
     std::vector<double> shown_;  ///< the data as the metric sees them
 };
@@ -66,14 +79,11 @@ Solution solve(const Residuals& residuals, const std::vector<double>& start, dou
 std::vector<double> score_covariances(const Residuals& residuals,
                                       const std::vector<std::vector<double>>& jacobian);
 
-/// Sets errors and at_end, with J by the parameters that are not at an end: square roots of the
-/// diagonal of (J^T J)^-1 times noise + misfit, the mean squares of residuals that the data's
-/// errors and the model's give. Where batches tell errors of blocks together, their part is (J^T
-/// J)^-1 C (J^T J)^-1, C the covariance of J^T r (the sandwich of Huber 1967), and `noise` counts
-/// for nothing.
-struct MeanSquares {
-    double noise = 1, misfit = 0;
-};
-void set_errors(const Residuals& residuals, Solution& solution, const MeanSquares& mean);
+/// Sets errors and at_end, with J by the parameters that are not at an end. The fit takes the score
+/// J^T r to zero; A is how it grows with the parameters, C its covariance by the errors of the
+/// data: errors are square roots of the diagonal of A^-1 C A^-1 (the sandwich of Huber 1967).
+/// Batches tell C, else Residuals::noise() does, and of data without errors the mean square of the
+/// residuals. No error, NaN: at an end, or A is singular, or it were as wide as the range.
+void set_errors(const Residuals& residuals, Solution& solution);
 
 }  // namespace asperity::detail

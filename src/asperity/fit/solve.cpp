@@ -10,8 +10,7 @@
 namespace asperity::detail {
 namespace {
 
-constexpr double kAtEnd = 1e-4;  ///< of the range, and nearer to an end than that is at it
-constexpr int kMostSteps = 40;   ///< towards an end of a range the way is long and leads nowhere
+constexpr int kMostSteps = 40;  ///< towards an end of a range the way is long and leads nowhere
 
 /// The parameters between their ends as angles: value = middle + half the range times sin(angle).
 class Ranges {
@@ -80,41 +79,6 @@ struct Functor {
     }
 };
 
-/// Derivatives of the residuals by the coordinates of those parameters that are not at an end.
-Eigen::MatrixXd jacobian_of(const Residuals& residuals, const Solution& solution,
-                            const std::vector<std::size_t>& inside) {
-    const std::vector<FreeParam>& params = residuals.model().free;
-    const auto rows = static_cast<Eigen::Index>(residuals.size());
-    Eigen::MatrixXd jacobian(rows, static_cast<Eigen::Index>(inside.size()));
-    for (std::size_t j = 0; j < inside.size(); ++j) {
-        const FreeParam& p = params[inside[j]];
-        const double u = p.coordinate(solution.values[inside[j]]);
-        const double step = 1e-4 * std::min(1.0, p.highest() - p.lowest());
-        const double low = std::max(u - step, p.lowest()), high = std::min(u + step, p.highest());
-        std::vector<double> values = solution.values;
-        values[inside[j]] = p.value(high);
-        const std::vector<double> above = residuals.at(values);
-        values[inside[j]] = p.value(low);
-        const std::vector<double> below = residuals.at(values);
-        using Vector = Eigen::Map<const Eigen::VectorXd>;
-        jacobian.col(static_cast<Eigen::Index>(j)) =
-            (Vector(above.data(), rows) - Vector(below.data(), rows)) / (high - low);
-    }
-    return jacobian;
-}
-
-/// Covariances of the coordinates by what batches tell of J^T r; `inverse` is (J^T J)^-1.
-Eigen::MatrixXd sandwich(const Residuals& residuals, const Eigen::MatrixXd& jacobian,
-                         const Eigen::MatrixXd& inverse) {
-    std::vector<std::vector<double>> columns;
-    for (Eigen::Index k = 0; k < jacobian.cols(); ++k)
-        columns.emplace_back(jacobian.col(k).begin(), jacobian.col(k).end());
-    const std::vector<double> scores = score_covariances(residuals, columns);
-    return inverse *
-           Eigen::Map<const Eigen::MatrixXd>(scores.data(), inverse.rows(), inverse.cols()) *
-           inverse;
-}
-
 }  // namespace
 
 Solution solve(const Residuals& residuals, const std::vector<double>& start, double precision) {
@@ -129,37 +93,6 @@ Solution solve(const Residuals& residuals, const std::vector<double>& start, dou
     solution.values = functor.ranges.values(x);
     solution.sum = solver.fvec.squaredNorm();
     return solution;
-}
-
-void set_errors(const Residuals& residuals, Solution& solution, const MeanSquares& mean) {
-    const std::vector<FreeParam>& params = residuals.model().free;
-    const Ranges ranges(params);
-    solution.errors.assign(params.size(), std::numeric_limits<double>::quiet_NaN());
-    solution.at_end.assign(params.size(), false);
-    std::vector<std::size_t> inside;
-    for (std::size_t k = 0; k < params.size(); ++k) {
-        const double share = ranges.share(k, solution.values[k]);
-        solution.at_end[k] = share < kAtEnd || share > 1 - kAtEnd;
-        if (!solution.at_end[k]) inside.push_back(k);
-    }
-    if (inside.empty()) return;
-    const Eigen::MatrixXd jacobian = jacobian_of(residuals, solution, inside);
-    const Eigen::MatrixXd square = jacobian.transpose() * jacobian;
-    // Directions along which nothing changes leave the parameters that they touch open.
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(square);
-    constexpr double kFlat = 1e-12;
-    if (!(axes.eigenvalues().minCoeff() > kFlat * axes.eigenvalues().maxCoeff())) return;
-    const bool batches = residuals.data().has_batches();
-    const Eigen::MatrixXd inverse = square.inverse();
-    Eigen::MatrixXd covariance = inverse * (mean.misfit + (batches ? 0 : mean.noise));
-    if (batches) covariance += sandwich(residuals, jacobian, inverse);
-    for (std::size_t j = 0; j < inside.size(); ++j) {
-        const FreeParam& p = params[inside[j]];
-        const double x = solution.values[inside[j]], u = p.coordinate(x), step = 1e-4;
-        const double slope = (p.value(u + step) - p.value(u - step)) / (2 * step);
-        const auto k = static_cast<Eigen::Index>(j);
-        solution.errors[inside[j]] = slope * std::sqrt(covariance(k, k));
-    }
 }
 
 }  // namespace asperity::detail
