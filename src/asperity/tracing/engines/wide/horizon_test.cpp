@@ -178,6 +178,30 @@ TEST(Horizon, GrooveByHand) {
     }
 }
 
+// A wall of height 30 above flat ground, in the last row of a surface with an end: y = 200. No row
+// of tiles begins there that would know it, too. From the far edge of the cells (i, j), y = j + 1,
+// it rises by 30 / (199 - j) towards +y, which is where two sectors meet. Seen from 88 cells and
+// more it is in tiles of 32 cells, which begin at y = 192, seen from blocks of 32 cells.
+TEST(Horizon, AWallInTheLastRowIsSeenFromAfar) {
+    Heightfield s = noise(201, 201, 0, 1);
+    s.boundary = Boundary::Finite;
+    std::fill(s.heights.end() - s.nx, s.heights.end(), 30.0f);
+    EXPECT_EQ(count_above_horizon(s, 60000), 0);
+    const PaddedHeights padded(s, 2);
+    const Horizon horizon(padded, 2);
+    for (const int j : {1, 31, 63, 95, 150}) {
+        const int edge = 31 - j % 32;  // how far the far edge of the block is from the cell's
+        const double seen = 30.0 / (199 - j), most = 30.0 / (199 - j - edge - 8);
+        for (const double turn : {-0.01, 0.01}) {
+            const int ahead = sector_to(0.5 * std::numbers::pi + turn);
+            const int behind = sector_to(-0.5 * std::numbers::pi + turn);
+            EXPECT_GE(Horizon::slope_of(horizon.byte(100, j, ahead)), seen) << j;
+            EXPECT_LE(Horizon::slope_of(horizon.byte(100, j, ahead)), 1.15 * most) << j;
+            EXPECT_LT(Horizon::slope_of(horizon.byte(100, j, behind)), seen / 2) << j;
+        }
+    }
+}
+
 /// The steepest slope seen from a few points of a cell in a few directions of each sector.
 std::array<double, Horizon::kSectors> look_around(const Heightfield& s, int i, int j) {
     std::array<double, Horizon::kSectors> steepest{};
