@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/bsdf/bsdf.h>
 #include <asperity/bsdf/lattice.h>
+#include <asperity/core/directions.h>
 
 #include <algorithm>
 #include <array>
@@ -29,6 +30,21 @@ std::vector<std::string> Bsdf::channel_names() const {
     std::vector<std::string> names;
     for (int c = 1; c <= count; ++c) names.push_back("c" + std::to_string(c));
     return names;
+}
+
+void Bsdf::eval_many(Vec3 wi, std::span<const Vec3> wo, std::span<double> f) const {
+    const std::size_t count = static_cast<std::size_t>(channels());
+    for (std::size_t k = 0; k < wo.size(); ++k) eval(wi, wo[k], f.subspan(k * count, count));
+}
+
+void Bsdf::eval_at_facets(std::span<const Vec3> wi, std::span<const Vec3> wm,
+                          std::span<double> f) const {
+    const std::size_t each = wm.size() * static_cast<std::size_t>(channels());
+    std::vector<Vec3> wo(wm.size());
+    for (std::size_t light = 0; light < wi.size(); ++light) {
+        for (std::size_t k = 0; k < wm.size(); ++k) wo[k] = reflect(wi[light], wm[k]);
+        eval_many(wi[light], wo, f.subspan(light * each, each));
+    }
 }
 
 void Bsdf::albedo(Vec3 wi, std::span<double> a) const {

@@ -38,6 +38,15 @@ class Bsdf {
     /// Writes f(wi, wo) [1/sr] per channel; f.size() == channels().
     virtual void eval(Vec3 wi, Vec3 wo, std::span<double> f) const = 0;
 
+    /// eval() for several wo: f[k * channels() + c]. Models that do so quicker override it.
+    virtual void eval_many(Vec3 wi, std::span<const Vec3> wo, std::span<double> f) const;
+
+    /// f(wi, wo) for light from each wi that each facet mirrors, wo = reflect(wi, wm), wm.z > 0:
+    /// f[(light * facets + facet) * channels() + c]. May allocate. Models that look up what belongs
+    /// to a facet override it.
+    virtual void eval_at_facets(std::span<const Vec3> wi, std::span<const Vec3> wm,
+                                std::span<double> f) const;
+
     /// Draws wo for this wi from two numbers uniform in [0, 1); none when the sample falls where f
     /// must be 0. E[f cos(theta_o) / pdf] = albedo.
     virtual std::optional<BsdfSample> sample(Vec3 wi, double u1, double u2) const = 0;

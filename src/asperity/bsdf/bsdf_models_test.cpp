@@ -69,6 +69,38 @@ TEST(BsdfModelsTest, WidthsOfSlopes) {
     EXPECT_FALSE(LambertBrdf({0.5}).normal_density({0, 0, 1}).has_value());
 }
 
+TEST(BsdfModelsTest, ManyDirectionsAtOnceMeanTheSame) {
+    // 96 to a ring, more than a model takes at once, the last ring below the horizon
+    std::vector<Vec3> wo;
+    for (const double theta : {0.0, 0.4, 1.1, 1.56, 1.7})
+        for (int k = 0; k < 96; ++k) wo.push_back(from_spherical(theta, 2 * kPi * k / 96));
+    for (const char* spec :
+         {"beckmann:alpha=0.3,material=Au", "ggx:alpha=0.2,alpha_y=0.5,masking=separable",
+          "student-t:alpha=0.3,gamma=3,f0=0.9/0.5/0.1", "cook-torrance:roughness=0.4,metallic=0.5",
+          "lambert:albedo=0.3"}) {
+        const auto model = parse_brdf_spec(spec);
+        const auto channels = static_cast<std::size_t>(model->channels());
+        std::vector<double> many(wo.size() * channels), one(channels);
+        for (const Vec3 wi : {from_spherical(0.9, 2), from_spherical(0, 0)}) {
+            model->eval_many(wi, wo, many);
+            for (std::size_t k = 0; k < wo.size(); ++k) {
+                model->eval(wi, wo[k], one);
+                for (std::size_t c = 0; c < channels; ++c)
+                    ASSERT_NEAR(many[k * channels + c], one[c], 1e-12 * one[c]) << spec << k;
+            }
+        }
+        const std::vector<Vec3> wi = {from_spherical(0.9, 2), from_spherical(0.1, 1)};
+        const std::vector<Vec3> wm = {from_spherical(0.3, 1), from_spherical(0.9, 5)};
+        std::vector<double> mirrored(4 * channels);
+        model->eval_at_facets(wi, wm, mirrored);
+        for (std::size_t k = 0; k < 4; ++k) {
+            model->eval(wi[k / 2], reflect(wi[k / 2], wm[k % 2]), one);
+            for (std::size_t c = 0; c < channels; ++c)
+                ASSERT_NEAR(mirrored[k * channels + c], one[c], 1e-12 * one[c]) << spec << k;
+        }
+    }
+}
+
 struct GreySettings {
     double grey = 0.5;
 };

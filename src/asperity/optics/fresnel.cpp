@@ -50,6 +50,15 @@ void Fresnel::eval(double cos_theta, std::span<double> f) const {
         f[c] = law_->reflectance(cos_theta, channels_[c]);
 }
 
+void Fresnel::eval(int channel, std::span<const double> cos_theta, double* f) const {
+    const FacetChannel& c = channels_[static_cast<std::size_t>(channel)];
+    if (law_->precise_reflectances != nullptr) {
+        law_->precise_reflectances(cos_theta, c, f);
+        return;
+    }
+    for (std::size_t k = 0; k < cos_theta.size(); ++k) f[k] = law_->reflectance(cos_theta[k], c);
+}
+
 void Fresnel::eval(std::span<const float> cos_theta, std::span<float* const> f) const {
     for (std::size_t c = 0; c < channels_.size(); ++c) {
         if (law_->reflectances != nullptr) {

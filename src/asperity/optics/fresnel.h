@@ -55,6 +55,8 @@ class Fresnel {
     /// Writes the reflectance of each channel; cos_theta in [0, 1] between wi and wm;
     /// f.size() == channels().
     void eval(double cos_theta, std::span<double> f) const;
+    /// The same of one channel for many angles, up to rounding: f[k] for cos_theta[k].
+    void eval(int channel, std::span<const double> cos_theta, double* f) const;
     /// The same for many angles, in single precision: f[channel][k] for cos_theta[k].
     void eval(std::span<const float> cos_theta, std::span<float* const> f) const;
 

@@ -254,5 +254,27 @@ TEST(FresnelTest, ManyAnglesAtOnceMeanTheSame) {
     }
 }
 
+TEST(FresnelTest, ManyAnglesOfAChannelMeanTheSame) {
+    std::vector<double> cosines, many(1003);
+    for (int n = 0; n < 1003; ++n) cosines.push_back(n / 1002.0);
+    std::vector<OpticsSettings> all(3);
+    all[1].fresnel = FresnelKind::Schlick;
+    all[1].f0 = {0.04, 0.9};
+    all[2].fresnel = FresnelKind::Conductor;
+    all[2].ior = {3, 0.05, 1.5};  // k above n, below, and none
+    all[2].k = {1, 4, 0};
+    for (const OpticsSettings& settings : all) {
+        const Fresnel fresnel(settings);
+        std::vector<double> one(static_cast<std::size_t>(fresnel.channels()));
+        for (std::size_t c = 0; c < one.size(); ++c) {
+            fresnel.eval(static_cast<int>(c), cosines, many.data());
+            for (std::size_t n = 0; n < cosines.size(); ++n) {
+                fresnel.eval(cosines[n], one);
+                ASSERT_NEAR(many[n], one[c], 1e-14) << cosines[n];
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace asperity

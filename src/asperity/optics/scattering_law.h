@@ -31,6 +31,9 @@ struct ScatteringLaw {
     /// The same for many angles, in single precision: f[k] for cos_theta[k]. Null: made from
     /// `reflectance`, one after the other.
     void (*reflectances)(std::span<const float> cos_theta, const FacetChannel&, float* f) = nullptr;
+    /// The same in double precision, up to rounding. Null: made from `reflectance`, too.
+    void (*precise_reflectances)(std::span<const double> cos_theta, const FacetChannel&,
+                                 double* f) = nullptr;
 };
 
 /// All laws, those of programs that use the library included, in the order of lists. A new one of

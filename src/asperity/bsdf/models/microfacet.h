@@ -3,10 +3,13 @@
 
 #include <asperity/bsdf/bsdf.h>
 #include <asperity/bsdf/smith.h>
+#include <asperity/bsdf/smith_lanes.h>
 #include <asperity/core/directions.h>
 #include <asperity/optics/fresnel.h>
 
 #include <algorithm>
+#include <array>
+#include <type_traits>
 
 namespace asperity {
 
@@ -55,13 +58,42 @@ class MicrofacetModel : public Bsdf {
         // the two directions.
         const Vec3 sum = wi + wo;
         const double sum_length = length(sum);
-        const double lambda_i = surface_.lambda(wi), lambda_o = surface_.lambda(wo);
-        const double hidden = masking_ == Masking::Correlated ? 1 + (lambda_i + lambda_o)
-                                                              : (1 + lambda_i) * (1 + lambda_o);
         const double d = surface_.normal_density((1 / sum_length) * sum);
         fresnel_.eval(std::min(1.0, 0.5 * sum_length), f);
-        const double mirror = d / (4 * (wi.z * wo.z) * hidden);
+        const double mirror =
+            d / (4 * (wi.z * wo.z) * hidden(surface_.lambda(wi), surface_.lambda(wo)));
         for (double& value : f) value *= mirror;
+    }
+
+    /// Lambda of wi is found once, that of wo once for as many as lie at one polar angle.
+    void eval_many(Vec3 wi, std::span<const Vec3> wo, std::span<double> f) const override {
+        constexpr std::size_t kAtOnce = 64;
+        std::array<double, kAtOnce> mirror, cosine, reflectance;
+        const std::size_t each = static_cast<std::size_t>(channels());
+        const bool round = surface_.alpha_x == surface_.alpha_y;
+        const double lambda_i = surface_.lambda(wi);
+        double z = 0, lambda_o = 0;
+        for (std::size_t begin = 0; begin < wo.size(); begin += kAtOnce) {
+            const std::span<const Vec3> part =
+                wo.subspan(begin, std::min(kAtOnce, wo.size() - begin));
+            find_facets(wi, part, mirror.data(), cosine.data());
+            for (std::size_t k = 0; k < part.size(); ++k) {
+                const Vec3 w = part[k];
+                if (w.z != z || !round) lambda_o = surface_.lambda(w);
+                z = w.z;
+                if (wi.z <= 0 || w.z <= 0)
+                    mirror[k] = cosine[k] = 0;
+                else
+                    mirror[k] /= 4 * (wi.z * w.z) * hidden(lambda_i, lambda_o);
+            }
+            for (std::size_t c = 0; c < each; ++c) {
+                fresnel_.eval(static_cast<int>(c),
+                              std::span<const double>(cosine).first(part.size()),
+                              reflectance.data());
+                for (std::size_t k = 0; k < part.size(); ++k)
+                    f[(begin + k) * each + c] = reflectance[k] * mirror[k];
+            }
+        }
     }
 
     std::optional<BsdfSample> sample(Vec3 wi, double u1, double u2) const override {
@@ -81,6 +113,26 @@ class MicrofacetModel : public Bsdf {
     }
 
   private:
+    /// Facets over those that both directions see.
+    double hidden(double lambda_i, double lambda_o) const {
+        return masking_ == Masking::Correlated ? 1 + (lambda_i + lambda_o)
+                                               : (1 + lambda_i) * (1 + lambda_o);
+    }
+
+    /// Of the facets that mirror wi to each wo: D, and wi . wm.
+    void find_facets(Vec3 wi, std::span<const Vec3> wo, double* density, double* cosine) const {
+        if constexpr (std::is_same_v<Facets, SmithSurface>) {
+            mirroring_facets(surface_, wi, wo, density, cosine);
+        } else {
+            for (std::size_t k = 0; k < wo.size(); ++k) {
+                const Vec3 sum = wi + wo[k];
+                const double sum_length = length(sum);
+                density[k] = surface_.normal_density((1 / sum_length) * sum);
+                cosine[k] = std::min(1.0, 0.5 * sum_length);
+            }
+        }
+    }
+
     std::string name_;
     Facets surface_;
     Masking masking_;

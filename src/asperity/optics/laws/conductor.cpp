@@ -95,6 +95,11 @@ ScatteringLaw conductor_law() {
                     std::fill_n(f, cos_theta.size(), 0.0f);  // no border at all, also along it
                 else
                     dielectric_lanes(cos_theta, n, f);
+            },
+            [](std::span<const double> cos_theta, const FacetChannel& c, double* f) {
+                if (c.k > 0) return conductor_lanes(cos_theta, c.n, c.k, f);
+                for (std::size_t k = 0; k < cos_theta.size(); ++k)
+                    f[k] = fresnel_dielectric(cos_theta[k], c.n);
             }};
 }
 
