@@ -4,24 +4,15 @@
 #include <asperity/core/energy.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace asperity {
 
 namespace {
-
-/// Rays that came to a cell one by one, and the energy they brought.
-struct Arrivals {
-    double hits = 0, energy = 0;
-
-    Arrivals& operator+=(const Arrivals& other) {
-        hits += other.hits;
-        energy += other.energy;
-        return *this;
-    }
-    double each() const { return hits > 0 ? energy / hits : 0.0; }
-};
 
 /// ln((n + k) / n), to the same bits with every mathematics library: result files make errors
 /// again. Sums, products and quotients alone, with one rounding each (-ffp-contract=off).
@@ -67,38 +58,65 @@ class Hits {
 /// One value of one side, as rows of cells.
 class Cells {
   public:
-    Cells(const LayerSums& sums, std::size_t side, std::size_t value)
+    /// `energy` is what paths brought.
+    Cells(const LayerSums& sums, std::size_t side, std::size_t value,
+          const std::vector<std::uint64_t>& energy)
         : columns_(std::max<std::size_t>(1, sums.shape.columns)),
           of_cell_(sums.shape.cells),
-          exact_(of_cell_.size()),
-          often_(exact_) {
+          exact_(sums.shape.cells),
+          often_(sums.shape.cells) {
         const std::uint64_t batches = sums.batches();
         const Hits hits(static_cast<double>(batches));
         const std::size_t values = sums.shape.values();
-        for (std::size_t c = 0; c < of_cell_.size(); ++c) {
+        for (std::size_t c = 0; c < exact_.size(); ++c) {
             const std::size_t k = (side * sums.shape.cells + c) * values + value;
-            const double energy = static_cast<double>(sums.followed(k));
-            of_cell_[c] = {hits.of(sums.reached[k], energy), energy};
-            often_[c] = sums.reached[k] == batches && of_cell_[c].hits >= kMany;
+            of_cell_.energy[c] = static_cast<double>(energy[k]);
+            of_cell_.hits[c] = hits.of(sums.reached[k], of_cell_.energy[c]);
+            often_[c] = sums.reached[k] == batches && of_cell_.hits[c] >= kMany;
             exact_[c] = !sums.exact.empty() && sums.exact[k] > 0;
         }
-        add_up_rows();
+        of_three_ = of_cell_;
+        add_up_columns(of_cell_.hits, of_three_.hits);
+        add_up_columns(of_cell_.energy, of_three_.energy);
     }
 
-    /// Square of the energy by which a cell may be wrong that has few hits; `variance` is that of
-    /// its energy over batches.
-    double floor(std::size_t cell, double variance) const {
-        const Arrivals around = of_neighbours(cell);
-        if (around.hits <= 0) return 0;
-        const Arrivals& here = of_cell_[cell];
-        double ray = here.hits > 0 ? here.each() : around.each();
-        // What comes in clumps, as sweeps of isotropic light do, weighs as much as they
-        if (!exact_[cell] && here.energy > 0) ray = std::max(ray, variance / here.energy);
-        const double per_cell = around.hits / cells_around(cell);
-        // Where each batch had some, they tell if rays on a lattice vary less than by chance
-        const double square =
-            often_[cell] ? std::min(ray * ray, variance * ray / here.energy) : ray * ray;
-        return per_cell / (per_cell + kHalfway) * square;
+    std::size_t columns() const { return columns_; }
+
+    /// Square of the energy by which each cell of a row may be wrong that has few hits; variances
+    /// are those of their energies over batches.
+    void floors(std::size_t row, const double* variances, double* floors) const {
+        const std::size_t first = row * columns_, count = exact_.size();
+        const std::size_t columns = std::min(columns_, count - first);
+        const bool above = row > 0, below = first + columns < count;
+        const int rows_around = 1 + (above ? 1 : 0) + (below ? 1 : 0);
+        const double cells_around = rows_around * (columns_ < 3 ? 1 : 3);
+        const std::vector<double> none(columns, 0.0);
+        const auto of_rows = [&](const std::vector<double>& sums) {
+            const double* const here = sums.data() + first;
+            return std::array{above ? here - columns : none.data(), here,
+                              below ? here + columns : none.data()};
+        };
+        const auto hits = of_rows(of_three_.hits), energy = of_rows(of_three_.energy);
+        const double* const own_hits = of_cell_.hits.data() + first;
+        const double* const own_energy = of_cell_.energy.data() + first;
+        const unsigned char* const exact = exact_.data() + first;
+        const unsigned char* const often = often_.data() + first;
+        for (std::size_t k = 0; k < columns; ++k) {
+            const double around = hits[1][k] + hits[0][k] + hits[2][k];
+            const double around_energy = energy[1][k] + energy[0][k] + energy[2][k];
+            // Of one ray, from the cell's own or else from those around
+            const double here = own_hits[k] > 0 ? own_hits[k] : around;
+            double ray = (own_hits[k] > 0 ? own_energy[k] : around_energy) / here;
+            // What comes in clumps, as sweeps of isotropic light do, weighs as much as they
+            const double clump = variances[k] / own_energy[k];
+            if (exact[k] == 0 && own_energy[k] > 0 && ray < clump) ray = clump;
+            const double per_cell = around / cells_around;
+            // Where each batch had some, they tell if rays on a lattice vary less than by chance
+            double square = ray * ray;
+            const double told = variances[k] * ray / own_energy[k];
+            if (often[k] != 0 && told < square) square = told;
+            floors[k] = around > 0 ? per_cell / (per_cell + kHalfway) * square : 0;
+        }
     }
 
   private:
@@ -107,53 +125,73 @@ class Cells {
     /// Hits whose batches tell how they vary, if each had some.
     static constexpr double kMany = 30;
 
-    std::size_t rows() const { return of_cell_.size() / columns_; }
+    /// Rays that came to cells one by one, and the energy they brought.
+    struct Arrivals {
+        explicit Arrivals(std::size_t cells = 0) : hits(cells), energy(cells) {}
+        std::vector<double> hits, energy;
+    };
 
     /// Three columns each; the last is beside the first.
-    void add_up_rows() {
-        of_three_ = of_cell_;
+    void add_up_columns(const std::vector<double>& cells, std::vector<double>& sums) const {
         if (columns_ < 3) return;
-        for (std::size_t c = 0; c < of_cell_.size(); ++c) {
-            const std::size_t first = c / columns_ * columns_, column = c - first;
-            of_three_[c] += of_cell_[first + (column + 1) % columns_];
-            of_three_[c] += of_cell_[first + (column + columns_ - 1) % columns_];
+        const std::size_t last = columns_ - 1;
+        for (std::size_t first = 0; first < cells.size(); first += columns_) {
+            const double* const cell = cells.data() + first;
+            double* const sum = sums.data() + first;
+            sum[0] = cell[0] + cell[1] + cell[last];
+            for (std::size_t k = 1; k < last; ++k) sum[k] = cell[k] + cell[k + 1] + cell[k - 1];
+            sum[last] = cell[last] + cell[0] + cell[last - 1];
         }
-    }
-    Arrivals of_neighbours(std::size_t cell) const {
-        Arrivals sum = of_three_[cell];
-        if (cell >= columns_) sum += of_three_[cell - columns_];
-        if (cell + columns_ < of_three_.size()) sum += of_three_[cell + columns_];
-        return sum;
-    }
-    double cells_around(std::size_t cell) const {
-        const std::size_t row = cell / columns_;
-        const int rows_around = 1 + (row > 0 ? 1 : 0) + (row + 1 < rows() ? 1 : 0);
-        return rows_around * (columns_ < 3 ? 1 : 3);
     }
 
     std::size_t columns_;
-    std::vector<Arrivals> of_cell_, of_three_;
-    std::vector<bool> exact_;  ///< not all came ray by ray
-    std::vector<bool> often_;  ///< each batch had some that did, and all together many
+    Arrivals of_cell_, of_three_;
+    std::vector<unsigned char> exact_;  ///< not all came ray by ray
+    std::vector<unsigned char> often_;  ///< each batch had some that did, and all together many
 };
+
+/// Over all orders, by place and value.
+std::vector<std::uint64_t> over_all_orders(const LayerSums& sums) {
+    const std::size_t size = sums.squares.size();
+    std::vector<std::uint64_t> all(sums.energy.begin(),
+                                   sums.energy.begin() + static_cast<std::ptrdiff_t>(size));
+    for (std::size_t order = 1; order < sums.shape.orders; ++order)
+        for (std::size_t k = 0; k < size; ++k) all[k] += sums.energy[order * size + k];
+    return all;
+}
 
 }  // namespace
 
 std::vector<LayerSums::Estimate> cell_estimates(const LayerSums& sums) {
     const std::size_t values = sums.shape.values();
     std::vector<LayerSums::Estimate> estimates(sums.squares.size());
-    for (std::size_t k = 0; k < estimates.size(); ++k) estimates[k] = sums.cell(k);
+    std::vector<std::uint64_t> energy = over_all_orders(sums);
+    const std::uint64_t batches = sums.batches();
+    for (std::size_t k = 0; k < estimates.size(); ++k) {
+        const std::uint64_t stretch = sums.stretched.empty() ? 0 : sums.stretched[k];
+        estimates[k] = sums.estimate({energy[k] + stretch, sums.squares[k]}, batches);
+    }
+    for (std::size_t k = 0; k < sums.exact.size(); ++k) energy[k] -= sums.exact[k];
     const double launched = static_cast<double>(kRayEnergy) *
-                            static_cast<double>(sums.largest_batch) *
-                            static_cast<double>(sums.batches());
+                            static_cast<double>(sums.largest_batch) * static_cast<double>(batches);
     for (std::size_t side = 0; side < sums.shape.sides; ++side)
         for (std::size_t v = 0; v < values; v += sums.shape.elements) {
-            const Cells cells(sums, side, v);
-            for (std::size_t c = 0; c < sums.shape.cells; ++c) {
-                LayerSums::Estimate& e = estimates[(side * sums.shape.cells + c) * values + v];
-                const double error = e.error * launched;
-                if (e.mean > 0 && std::isfinite(error))
-                    e.error = std::sqrt(error * error + cells.floor(c, error * error)) / launched;
+            const Cells cells(sums, side, v, energy);
+            const std::size_t columns = cells.columns();
+            std::vector<double> variances(columns), floors(columns);
+            for (std::size_t first = 0; first < sums.shape.cells; first += columns) {
+                LayerSums::Estimate* const here =
+                    &estimates[(side * sums.shape.cells + first) * values + v];
+                for (std::size_t k = 0; k < columns; ++k) {
+                    const double error = here[k * values].error * launched;
+                    variances[k] = error * error;
+                }
+                cells.floors(first / columns, variances.data(), floors.data());
+                for (std::size_t k = 0; k < columns; ++k) {
+                    LayerSums::Estimate& e = here[k * values];
+                    if (e.mean > 0 && std::isfinite(e.error * launched))
+                        e.error = std::sqrt(variances[k] + floors[k]) / launched;
+                }
             }
         }
     return estimates;

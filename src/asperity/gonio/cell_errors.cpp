@@ -12,6 +12,18 @@
 
 namespace asperity {
 
+/// Calls work(block, begin, end) for the cells from begin to end of a row that lie in one block, in
+/// order.
+template <class Work>
+void CellErrors::for_blocks(Work work) const {
+    for (std::size_t row = 0; row * grid_.columns < cells_; ++row) {
+        const std::size_t first = row * grid_.columns;
+        for (std::size_t k = 0; k < grid_.across; ++k)
+            work(row / grid_.height * grid_.across + k, first + k * grid_.width,
+                 first + std::min((k + 1) * grid_.width, grid_.columns));
+    }
+}
+
 CellErrors::CellErrors(const Measurement& m, const Layer& layer)
     : grid_(m.shape()),
       channels_(static_cast<std::size_t>(m.channels())),
@@ -24,19 +36,25 @@ CellErrors::CellErrors(const Measurement& m, const Layer& layer)
     }
     const std::size_t blocks = grid_.blocks();
     group_energy_.resize(channels_ * blocks * kGroups);
-    for (std::size_t k = 0; k < group_energy_.size(); ++k)
-        group_energy_[(k % channels_ * blocks + k / channels_ % blocks) * kGroups +
-                      k / channels_ / blocks] = energy_fraction(groups.energy[k], 1);
+    const std::uint64_t* energy = groups.energy.data();
+    for (std::size_t g = 0; g < kGroups; ++g)
+        for (std::size_t b = 0; b < blocks; ++b)
+            for (std::size_t c = 0; c < channels_; ++c)
+                group_energy_[(c * blocks + b) * kGroups + g] =
+                    static_cast<double>(*energy++) * (1 / static_cast<double>(kRayEnergy));
     block_of_.resize(cells_);
-    for (std::size_t cell = 0; cell < cells_; ++cell)
-        block_of_[cell] = static_cast<std::uint32_t>(grid_.block_of(cell));
+    for_blocks([&](std::size_t block, std::size_t begin, std::size_t end) {
+        for (std::size_t cell = begin; cell < end; ++cell)
+            block_of_[cell] = static_cast<std::uint32_t>(block);
+    });
     block_energy_.resize(channels_ * blocks);
     energy_.reserve(channels_ * cells_);
     error_.reserve(channels_ * cells_);
     for (std::size_t c = 0; c < channels_; ++c) {
+        const std::vector<double> energies = m.energies(layer, static_cast<int>(c));
+        energy_.insert(energy_.end(), energies.begin(), energies.end());
         for (std::size_t cell = 0; cell < cells_; ++cell) {
-            const double e = m.energy(layer, static_cast<int>(c), static_cast<int>(cell));
-            energy_.push_back(e);
+            const double e = energies[cell];
             block_energy_[c * blocks + block_of_[cell]] += e;
             error_.push_back(e > 0 ? double{layer.stderr_energy[c * cells_ + cell]} : 0.0);
         }
@@ -95,10 +113,13 @@ double CellErrors::covariance(const std::array<double, kGroups>& a,
         sum_a += a[g];
         sum_b += b[g];
     }
-    for (std::size_t g = 0; g < kGroups; ++g)
-        if (rays_[g] > 0)
-            products += rays_[g] * (a[g] / rays_[g] - sum_a / all_rays_) *
-                        (b[g] / rays_[g] - sum_b / all_rays_);
+    const double mean_a = sum_a / all_rays_, mean_b = sum_b / all_rays_;
+    for (std::size_t g = 0; g < kGroups; ++g) {
+        if (!(rays_[g] > 0)) continue;
+        const double off_a = a[g] / rays_[g] - mean_a;
+        const double off_b = &a == &b ? off_a : b[g] / rays_[g] - mean_b;
+        products += rays_[g] * off_a * off_b;
+    }
     return products / (groups_ - 1) / all_rays_;
 }
 
@@ -106,14 +127,21 @@ double CellErrors::covariance(const std::array<double, kGroups>& a,
 /// from that of its block makes of its error.
 std::array<double, CellErrors::kGroups> CellErrors::group_sums(std::span<const double> weights,
                                                                std::vector<double>& parts) const {
+    if (weights.size() != channels_ * cells_)
+        throw Error(ErrorCode::Usage,
+                    fmt::format("{} weights for {} energies", weights.size(), channels_ * cells_));
     std::array<double, kGroups> sums{};
     parts.assign(cells_ + 1, 0.0);  // the last: solved light, of all cells together
     std::vector<double> mean(grid_.blocks());
     for (std::size_t c = 0; c < channels_; ++c) {
         std::fill(mean.begin(), mean.end(), 0.0);
         const std::size_t first = c * cells_;
-        for (std::size_t cell = 0; cell < cells_; ++cell)
-            mean[block_of_[cell]] += weights[first + cell] * energy_[first + cell];
+        for_blocks([&](std::size_t block, std::size_t begin, std::size_t end) {
+            double sum = mean[block];
+            for (std::size_t k = first + begin; k < first + end; ++k)
+                sum += weights[k] * energy_[k];
+            mean[block] = sum;
+        });
         for (std::size_t b = 0; b < mean.size(); ++b) {
             const double whole = block_energy_[c * mean.size() + b];
             mean[b] = whole > 0 ? mean[b] / whole : 0.0;
@@ -121,11 +149,17 @@ std::array<double, CellErrors::kGroups> CellErrors::group_sums(std::span<const d
                 sums[g] += mean[b] * group_energy_[(c * mean.size() + b) * kGroups + g];
         }
         if (grid_.height * grid_.width == 1) continue;
-        for (std::size_t cell = 0; cell < cells_; ++cell) {
-            const double apart = weights[first + cell] - mean[block_of_[cell]];
-            parts[cell] += apart * error_[first + cell];
-            if (!known_.empty()) parts[cells_] += apart * known_[first + cell];
-        }
+        const double* const error = error_.data() + first;
+        const double* const known = known_.empty() ? nullptr : known_.data() + first;
+        double of_known = parts[cells_];
+        for_blocks([&](std::size_t block, std::size_t begin, std::size_t end) {
+            for (std::size_t cell = begin; cell < end; ++cell) {
+                const double apart = weights[first + cell] - mean[block];
+                parts[cell] += apart * error[cell];
+                if (known != nullptr) of_known += apart * known[cell];
+            }
+        });
+        parts[cells_] = of_known;
     }
     return sums;
 }
@@ -156,20 +190,18 @@ double CellErrors::error_of_cells(std::size_t channel, std::span<const int> cell
 }
 
 double CellErrors::error(std::span<const double> weights) const {
-    const std::vector<std::vector<double>> one = {{weights.begin(), weights.end()}};
-    return std::sqrt(covariances(one).front());
+    std::vector<double> parts;
+    const std::array<double, kGroups> sums = group_sums(weights, parts);
+    double sum = covariance(sums, sums);
+    for (const double part : parts) sum += part * part;
+    return std::sqrt(sum);
 }
 
 std::vector<double> CellErrors::covariances(std::span<const std::vector<double>> weights) const {
     const std::size_t count = weights.size();
     std::vector<std::array<double, kGroups>> sums;
     std::vector<std::vector<double>> parts(count);
-    for (std::size_t k = 0; k < count; ++k) {
-        if (weights[k].size() != channels_ * cells_)
-            throw Error(ErrorCode::Usage, fmt::format("{} weights for {} energies",
-                                                      weights[k].size(), channels_ * cells_));
-        sums.push_back(group_sums(weights[k], parts[k]));
-    }
+    for (std::size_t k = 0; k < count; ++k) sums.push_back(group_sums(weights[k], parts[k]));
     std::vector<double> result(count * count);
     for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t j = 0; j <= i; ++j) {

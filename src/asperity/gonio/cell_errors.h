@@ -34,6 +34,9 @@ class CellErrors {
     /// Of a layer of which they are known.
     CellErrors(const Measurement& measurement, const Layer& layer);
 
+    /// Measurement::energies of all channels, [channel * cells + cell].
+    const std::vector<double>& energies() const { return energy_; }
+
     /// Standard error of what several cells of a channel hold together, each named once. Cost: some
     /// operations a cell and, for each block that they touch, a group.
     double error_of_cells(std::size_t channel, std::span<const int> cells) const;
@@ -49,6 +52,8 @@ class CellErrors {
   private:
     static constexpr std::size_t kGroups = GroupSums::kGroups;
 
+    template <class Work>
+    void for_blocks(Work work) const;
     std::array<double, kGroups> group_sums(std::span<const double> weights,
                                            std::vector<double>& of_parts) const;
     double covariance(const std::array<double, kGroups>& a,

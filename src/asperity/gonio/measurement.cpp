@@ -31,6 +31,21 @@ double Measurement::energy(const Layer& layer, int channel, int cell) const {
     return energy_fraction(sum, layer.rays);
 }
 
+std::vector<double> Measurement::energies(const Layer& layer, int channel) const {
+    const std::size_t cells = index(detector.cells());
+    std::vector<std::uint64_t> sums(cells);
+    std::uint64_t* const sum = sums.data();
+    for (int order = 0; order < orders(); ++order) {
+        const std::size_t slice = index(order) * index(channels()) + index(channel);
+        const std::uint64_t* const energy = layer.energy.data() + slice * cells;
+        for (std::size_t cell = 0; cell < cells; ++cell) sum[cell] += energy[cell];
+    }
+    std::vector<double> fractions(cells);
+    for (std::size_t cell = 0; cell < cells; ++cell)
+        fractions[cell] = energy_fraction(sum[cell], layer.rays);
+    return fractions;
+}
+
 double Measurement::brdf(const Layer& layer, int channel, int cell) const {
     return energy(layer, channel, cell) / detector.projected_solid_angle(cell / detector.columns());
 }

@@ -89,6 +89,8 @@ struct Measurement {
     /// Energy of one cell over all orders, as a fraction of the launched energy.
     double energy(const Layer& layer, int channel, int cell) const;
     double energy(const Layer& layer, int order, int channel, int cell) const;
+    /// The same of all cells of a channel, over all orders.
+    std::vector<double> energies(const Layer& layer, int channel) const;
     /// BRDF of a cell [1/sr]: the cosine-weighted mean of f_r over the cell,
     /// energy / projected solid angle. No cosine included.
     double brdf(const Layer& layer, int channel, int cell) const;
