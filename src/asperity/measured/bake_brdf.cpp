@@ -5,10 +5,12 @@
 #include <asperity/core/parallel.h>
 #include <asperity/measured/baked_brdf.h>
 #include <asperity/measured/baked_tables.h>
+#include <asperity/measured/hemisphere_weights.h>
 
 #include <fmt/format.h>
 
 #include <limits>
+#include <optional>
 
 namespace asperity {
 
@@ -23,14 +25,13 @@ class BrdfBaker {
 
   private:
     void for_each(std::size_t count, const std::function<void(std::size_t)>& body);
-    void evaluate(std::size_t slice);
+    void evaluate(std::size_t row);
     void fill_along_theta();
     void fill_towards_centre(std::size_t slice);
     void find_correction(std::size_t fine);
     void make_sampling(std::size_t slice);
 
     Vec3 half_vector(std::size_t node) const;
-    Vec3 mirrored(std::size_t slice, std::size_t node) const;
     Vec3 incident(std::size_t slice) const;
     float* values(std::size_t slice, std::size_t node) const;
 
@@ -38,6 +39,9 @@ class BrdfBaker {
     Run& run_;
     std::shared_ptr<Tables> tables_ = std::make_shared<Tables>();
     Tables& t_ = *tables_;
+    std::vector<Vec3> facets_;  ///< half vectors of the nodes
+    std::vector<Vec3> lights_;  ///< of the slices
+    std::optional<HemisphereWeights> weights_;
     std::vector<float> found_;  ///< corrections; those of the tables are 1 while they are sought
 };
 
@@ -162,19 +166,30 @@ float* BrdfBaker::values(std::size_t slice, std::size_t node) const {
     return &t_.nodes[(slice * t_.nodes_per_slice() + node) * t_.record()];
 }
 
-/// Asks the Bsdf at every node whose half vector mirrors the light of the slice upwards.
-void BrdfBaker::evaluate(std::size_t slice) {
-    const Vec3 wi = incident(slice);
-    std::array<double, 3> f{};
-    const std::span<double> channels = std::span(f).first(static_cast<std::size_t>(t_.channels));
-    for (std::size_t node = 0; node < t_.nodes_per_slice(); ++node) {
-        float* value = values(slice, node);
-        std::fill(value, value + t_.record(), kUnknown);
-        const Vec3 h = half_vector(node), wo = reflect(wi, h);
-        if (h.z <= 0 || wo.z <= 0) continue;
-        brdf_.eval(wi, wo, channels);
-        for (std::size_t c = 0; c < channels.size(); ++c)
-            value[c] = static_cast<float>(channels[c] * (wi.z + wo.z));
+/// Asks the Bsdf at every half vector of a row that mirrors the light of a slice upwards.
+void BrdfBaker::evaluate(std::size_t row) {
+    const std::size_t side = static_cast<std::size_t>(t_.side);
+    const std::size_t channels = static_cast<std::size_t>(t_.channels);
+    std::vector<std::size_t> nodes;
+    std::vector<Vec3> facets;
+    for (std::size_t node = row * side; node < (row + 1) * side; ++node) {
+        if (facets_[node].z <= 0) continue;
+        nodes.push_back(node);
+        facets.push_back(facets_[node]);
+    }
+    std::vector<double> f(lights_.size() * facets.size() * channels);
+    brdf_.eval_at_facets(lights_, facets, f);
+    for (std::size_t slice = 0; slice < lights_.size(); ++slice) {
+        const Vec3 wi = lights_[slice];
+        std::fill_n(values(slice, row * side), side * t_.record(), kUnknown);
+        for (std::size_t k = 0; k < facets.size(); ++k) {
+            const Vec3 wo = reflect(wi, facets[k]);
+            if (wo.z <= 0) continue;
+            const double* const found = f.data() + (slice * facets.size() + k) * channels;
+            float* const value = values(slice, nodes[k]);
+            for (std::size_t c = 0; c < channels; ++c)
+                value[c] = static_cast<float>(found[c] * (wi.z + wo.z));
+        }
     }
 }
 
@@ -223,23 +238,22 @@ void BrdfBaker::find_correction(std::size_t fine) {
     const Vec3 wi = t_.incident_at(static_cast<double>(fine / columns) / Tables::kFine,
                                    static_cast<double>(fine % columns) / Tables::kFine);
     const std::size_t channels = static_cast<std::size_t>(t_.channels);
-    std::array<double, 3> wanted{}, sum{}, f{};
+    std::array<double, 3> wanted{}, sum{};
     brdf_.albedo(wi, std::span(wanted).first(channels));
 
-    // Midpoints of two steps a cell: between its nodes the table is linear.
-    const int steps = 2 * (t_.side - 1);
-    const double step = 2.0 / steps;
-    for (int row = 0; row < steps; ++row) {
-        for (int column = 0; column < steps; ++column) {
-            const Vec3 h = t_.map.half_vector((column + 0.5) * step - 1, (row + 0.5) * step - 1);
-            if (h.z <= 0) continue;
-            const Vec3 wo = reflect(wi, normalize(h));
-            if (wo.z <= 0) continue;
-            t_.look(wi, wo, f.data());
-            const double share = wo.z * step * step / t_.map.place(wi + wo).density;
-            for (std::size_t c = 0; c < channels; ++c) sum[c] += share * f[c];
-        }
-    }
+    const std::vector<double> weights = weights_->of(wi);
+    const auto add = [&](std::size_t slice, double share) {
+        const float* value = values(slice, 0);
+        for (std::size_t node = 0; node < weights.size(); ++node, value += t_.record())
+            for (std::size_t c = 0; c < channels; ++c)
+                sum[c] += share * weights[node] * static_cast<double>(value[c]);
+    };
+    const Tables::Incidence in = t_.incidence(wi);
+    const auto add_all = [&](const auto& shares) {
+        for (std::size_t k = 0; k < shares.kCount; ++k)
+            if (shares.weight[k] > 0) add(shares.slice[k], shares.weight[k]);
+    };
+    t_.isotropic ? add_all(t_.shares<true>(in)) : add_all(t_.shares<false>(in));
     for (std::size_t c = 0; c < channels; ++c) {
         t_.albedos[fine * channels + c] = static_cast<float>(wanted[c]);
         found_[fine * channels + c] = sum[c] > 0 ? static_cast<float>(wanted[c] / sum[c]) : 1.0f;
@@ -248,11 +262,11 @@ void BrdfBaker::find_correction(std::size_t fine) {
 
 /// Cells are drawn in proportion to the light they send out, the mean of their corners.
 void BrdfBaker::make_sampling(std::size_t slice) {
-    const Vec3 wi = incident(slice);
+    const Vec3 wi = lights_[slice];
     const std::size_t side = static_cast<std::size_t>(t_.side), cells = side - 1;
     std::vector<double> light(t_.nodes_per_slice(), 0.0);
     for (std::size_t node = 0; node < light.size(); ++node) {
-        const Vec3 h = half_vector(node), wo = reflect(wi, h);
+        const Vec3 h = facets_[node], wo = reflect(wi, h);
         if (h.z <= 0 || wo.z <= 0) continue;
         const float* value = values(slice, node);
         double sum = 0;
@@ -314,8 +328,14 @@ std::shared_ptr<const BakedBrdf::Tables> BrdfBaker::bake() {
     t_.corrections.assign(fines * static_cast<std::size_t>(t_.channels), 1.0f);
     found_ = t_.albedos = t_.corrections;
 
-    run_.begin("preparing the BRDF", 3 * slices + fines);
-    for_each(slices, [this](std::size_t k) { evaluate(k); });
+    for (std::size_t node = 0; node < t_.nodes_per_slice(); ++node)
+        facets_.push_back(half_vector(node));
+    for (std::size_t slice = 0; slice < slices; ++slice) lights_.push_back(incident(slice));
+    weights_.emplace(t_.map, t_.side);
+
+    const std::size_t side = static_cast<std::size_t>(t_.side);
+    run_.begin("preparing the BRDF", side + 2 * slices + fines);
+    for_each(side, [this](std::size_t k) { evaluate(k); });
     fill_along_theta();
     for_each(slices, [this](std::size_t k) { fill_towards_centre(k); });
     for_each(fines, [this](std::size_t k) { find_correction(k); });

@@ -12,11 +12,6 @@ namespace {
 
 using detail::kCosineShare;
 
-/// The whole part of x >= 0, at most `most`.
-int whole(double x, int most) {
-    return std::min(static_cast<int>(x), most);
-}
-
 /// The step of a cumulated list of `count` in which u falls, by halving without branches; u becomes
 /// the place in the step.
 int find_step(const float* list, int count, double& u) {
@@ -48,25 +43,6 @@ BakedBrdf::Tables::Incidence BakedBrdf::Tables::incidence(Vec3 wi) const {
         in.sine = wi.y / r;
     }
     return in;
-}
-
-template <bool kIsotropic>
-BakedBrdf::Tables::Shares<kIsotropic> BakedBrdf::Tables::shares(const Incidence& in) const {
-    const int t = whole(in.theta, thetas - 2);
-    const double above = in.theta - t;
-    const std::size_t lower = static_cast<std::size_t>(t * phis);
-    const std::size_t upper = lower + static_cast<std::size_t>(phis);
-    if constexpr (kIsotropic) {
-        return {{lower, upper}, {1 - above, above}};
-    } else {
-        const int p = whole(in.phi, phis - 1);
-        const double beyond = in.phi - p;
-        const std::size_t left = static_cast<std::size_t>(p);
-        const std::size_t right = static_cast<std::size_t>(p + 1 < phis ? p + 1 : 0);
-        return {{lower + left, upper + left, lower + right, upper + right},
-                {(1 - above) * (1 - beyond), above * (1 - beyond), (1 - above) * beyond,
-                 above * beyond}};
-    }
 }
 
 template <int kChannels, bool kIsotropic>

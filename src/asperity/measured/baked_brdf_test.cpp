@@ -6,6 +6,7 @@
 #include <asperity/measured/analytic_measurement.h>
 #include <asperity/measured/baked_brdf.h>
 #include <asperity/measured/half_vector_map.h>
+#include <asperity/measured/hemisphere_weights.h>
 #include <asperity/measured/tabulated.h>
 
 #include <gtest/gtest.h>
@@ -77,6 +78,25 @@ TEST(HalfVectorMapTest, ThereAndBack) {
     const Vec3 mirrored = reflect(wi, normalize(h));
     EXPECT_NEAR(length(mirrored - wo), 0, 1e-14);
     EXPECT_NEAR(map.density(place.x, place.y, h, wi), place.density, 1e-13 * place.density);
+}
+
+TEST(HemisphereWeightsTest, WhiteIsOne) {
+    const HalfVectorMap map{0.4};
+    constexpr int kSide = 96;
+    const HemisphereWeights weights(map, kSide);
+    for (const double theta_deg : {0.0, 40.0, 75.0}) {
+        const Vec3 wi = from_spherical(radians(theta_deg), 0.7);
+        const std::vector<double> all = weights.of(wi);
+        double white = 0;
+        for (std::size_t node = 0; node < all.size(); ++node) {
+            const double x = static_cast<double>(node % kSide),
+                         y = static_cast<double>(node / kSide);
+            const Vec3 h =
+                normalize(map.half_vector(2 * x / (kSide - 1) - 1, 2 * y / (kSide - 1) - 1));
+            white += all[node] * (wi.z + reflect(wi, h).z) / kPi;
+        }
+        EXPECT_NEAR(white, 1, 1e-3) << theta_deg;
+    }
 }
 
 struct BakedCase {

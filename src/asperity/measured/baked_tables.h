@@ -49,6 +49,9 @@ struct BakedBrdf::Tables {
     /// The incident direction at a place between slices.
     Vec3 incident_at(double theta, double phi) const;
 
+    /// The whole part of x >= 0, at most `most`.
+    static int whole(double x, int most) { return std::min(static_cast<int>(x), most); }
+
     /// The slices round an incidence, and their weights.
     template <bool kIsotropic>
     struct Shares {
@@ -84,6 +87,25 @@ struct BakedBrdf::Tables {
     /// Position of a node on the square.
     double position(double node) const { return 2 * node / (side - 1) - 1; }
 };
+
+template <bool kIsotropic>
+BakedBrdf::Tables::Shares<kIsotropic> BakedBrdf::Tables::shares(const Incidence& in) const {
+    const int t = whole(in.theta, thetas - 2);
+    const double above = in.theta - t;
+    const std::size_t lower = static_cast<std::size_t>(t * phis);
+    const std::size_t upper = lower + static_cast<std::size_t>(phis);
+    if constexpr (kIsotropic) {
+        return {{lower, upper}, {1 - above, above}};
+    } else {
+        const int p = whole(in.phi, phis - 1);
+        const double beyond = in.phi - p;
+        const std::size_t left = static_cast<std::size_t>(p);
+        const std::size_t right = static_cast<std::size_t>(p + 1 < phis ? p + 1 : 0);
+        return {{lower + left, upper + left, lower + right, upper + right},
+                {(1 - above) * (1 - beyond), above * (1 - beyond), (1 - above) * beyond,
+                 above * beyond}};
+    }
+}
 
 /// The polar angle as a number that is dense where BRDFs change most, by one square root: 0 along
 /// the normal, 1 on the horizon, where neighbours lie five times closer than at the normal.

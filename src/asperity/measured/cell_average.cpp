@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/parallel.h>
 #include <asperity/measured/compare.h>
-#include <asperity/measured/patch_integrator.h>
+#include <asperity/measured/row_integrator.h>
 
 #include <cmath>
 #include <optional>
@@ -33,24 +33,26 @@ CellAverages average_over_cells(const Bsdf& brdf, const Detector& detector, doub
 
     const auto mirrored = sum_of_mirrored(brdf, detector, isotropic ? 0.0 : phi_i);
 
+    // A column and the one mirrored in it
+    std::vector<int> own, others;
+    for (int column = 0; column < detector.columns(); ++column) {
+        const int other =
+            mirrored ? (*mirrored + detector.columns() - column) % detector.columns() : column;
+        if (other < column) continue;
+        own.push_back(column);
+        others.push_back(other);
+    }
+    const detail::RowIntegrator rows(integrator, detector, own);
+
     CellAverages result;
     result.energy.assign(channels * cells, 0.0);
     parallel_for(static_cast<std::size_t>(detector.rows()), threads, [&](std::size_t row) {
-        for (std::size_t column = 0; column < columns; ++column) {
-            const std::size_t other =
-                mirrored ? (static_cast<std::size_t>(*mirrored) + columns - column) % columns
-                         : column;
-            if (other < column) {
-                for (std::size_t channel = 0; channel < channels; ++channel) {
-                    double* const energy = &result.energy[channel * cells + row * columns];
-                    energy[column] = energy[other];
-                }
-                continue;
-            }
-            const detail::Channels energy =
-                integrator.integrate(static_cast<int>(row), static_cast<int>(column));
-            for (std::size_t channel = 0; channel < channels; ++channel)
-                result.energy[channel * cells + row * columns + column] = energy[channel];
+        std::vector<double> energy(own.size() * channels);
+        rows.integrate(static_cast<int>(row), energy);
+        for (std::size_t channel = 0; channel < channels; ++channel) {
+            double* const to = &result.energy[channel * cells + row * columns];
+            for (std::size_t k = 0; k < own.size(); ++k)
+                to[own[k]] = to[others[k]] = energy[k * channels + channel];
         }
     });
 

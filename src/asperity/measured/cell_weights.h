@@ -31,12 +31,12 @@ class CellWeights {
 
   private:
     using Nine = std::array<float, 9>;  ///< of the node and its neighbours, row by row
-    const Nine& of(std::size_t row, std::size_t column) const {
-        return weights_.size() == 1 ? weights_[0] : weights_[row * columns_ + column];
-    }
+    Nine of(std::size_t row, std::size_t column) const;
+    void set(std::size_t row, std::size_t column, const Nine& weights);
 
     std::size_t rows_, columns_;
-    std::vector<Nine> weights_;  ///< of each cell, or of all alike
+    Nine alike_{};                ///< of all cells, where `weights_` is empty
+    std::vector<float> weights_;  ///< [(row * 9 + k) * columns + column]
 };
 
 }  // namespace asperity

@@ -27,16 +27,16 @@ struct Lobes {
 };
 
 Lobes lobes_of(const Measurement& m, const Layer& layer) {
-    const int cells = m.detector.cells();
     Lobes lobes;
+    if (CellErrors::known(layer)) lobes.energy = lobes.errors.emplace(m, layer).energies();
     for (int channel = 0; channel < m.channels(); ++channel) {
-        for (int cell = 0; cell < cells; ++cell)
-            lobes.energy.push_back(m.energy(layer, channel, cell));
         lobes.albedo.push_back(m.albedo(layer, channel));
+        if (lobes.errors) continue;
+        const std::vector<double> energies = m.energies(layer, channel);
+        lobes.energy.insert(lobes.energy.end(), energies.begin(), energies.end());
     }
     lobes.noise.assign(layer.stderr_energy.begin(), layer.stderr_energy.end());
     lobes.exact = false;
-    if (CellErrors::known(layer)) lobes.errors.emplace(m, layer);
     return lobes;
 }
 
@@ -60,6 +60,19 @@ struct Slopes {
         if (!side.errors) return;
         for (std::vector<double>* slopes : {&albedo, &l1, &rms}) slopes->resize(side.energy.size());
     }
+
+    /// Of the cells from k on that differ by so much; `share` with the sign of the side.
+    void add(std::size_t k, const std::vector<double>& differences, double share,
+             double solid_angle) {
+        if (l1.empty()) return;
+        for (std::size_t n = 0; n < differences.size(); ++n) {
+            const double difference = differences[n];
+            const double sign = difference > 0 ? 1 : difference < 0 ? -1 : 0;
+            albedo[k + n] += share;
+            l1[k + n] += share * sign;
+            rms[k + n] += share * difference / solid_angle;
+        }
+    }
 };
 
 /// Standard error of a figure that is about `value`, from those of both sides' energies; NaN where
@@ -76,6 +89,12 @@ double error_of(const Lobes& a, const Slopes& by_a, const Lobes& b, const Slopes
     return error < kRounding * value ? 0.0 : error;
 }
 
+/// Standard error of the difference of two energies.
+double noise_of(const Lobes& a, std::size_t ka, const Lobes& b, std::size_t kb) {
+    if (a.noise.empty()) return b.noise.empty() ? 0.0 : b.noise[kb];
+    return b.noise.empty() ? a.noise[ka] : std::hypot(a.noise[ka], b.noise[kb]);
+}
+
 /// The distances of two lobes over the cells of `detector`, averaged over the channels; a side of
 /// one channel serves all channels of the other.
 LayerComparison compare_lobes(const Lobes& a, const Lobes& b, const Detector& detector) {
@@ -87,33 +106,26 @@ LayerComparison compare_lobes(const Lobes& a, const Lobes& b, const Detector& de
 
     LayerComparison result;
     Slopes by_a(a), by_b(b);
+    std::vector<double> differences(columns);
     double squares = 0;
     for (std::size_t channel = 0; channel < channels; ++channel) {
         const std::size_t ca = a.albedo.size() == 1 ? 0 : channel;
         const std::size_t cb = b.albedo.size() == 1 ? 0 : channel;
         result.albedo_a += share * a.albedo[ca];
         result.albedo_b += share * b.albedo[cb];
-        double solid_angle = 0;
-        for (std::size_t cell = 0; cell < cells; ++cell) {
-            const std::size_t ka = ca * cells + cell, kb = cb * cells + cell;
-            const double difference = a.energy[ka] - b.energy[kb];
-            result.l1 += share * std::abs(difference);
+        for (std::size_t first = 0; first < cells; first += columns) {
+            const std::size_t ka = ca * cells + first, kb = cb * cells + first;
             // f cos(theta) of a cell is its energy per solid angle.
-            if (cell % columns == 0)
-                solid_angle = detector.solid_angle(static_cast<int>(cell / columns));
-            squares += share * difference * difference / solid_angle;
-            const double noise = std::hypot(a.noise.empty() ? 0.0 : a.noise[ka],
-                                            b.noise.empty() ? 0.0 : b.noise[kb]);
-            result.l1_noise += share * noise_to_l1 * noise;
-            const double sign = difference > 0 ? 1 : difference < 0 ? -1 : 0;
-            const auto change = [&](Slopes& slopes, std::size_t k, double side) {
-                if (slopes.l1.empty()) return;
-                slopes.albedo[k] += side * share;
-                slopes.l1[k] += side * share * sign;
-                slopes.rms[k] += side * share * difference / solid_angle;
-            };
-            change(by_a, ka, 1);
-            change(by_b, kb, -1);
+            const double solid_angle = detector.solid_angle(static_cast<int>(first / columns));
+            for (std::size_t k = 0; k < columns; ++k) {
+                const double difference = a.energy[ka + k] - b.energy[kb + k];
+                differences[k] = difference;
+                result.l1 += share * std::abs(difference);
+                squares += share * difference * difference / solid_angle;
+                result.l1_noise += share * noise_to_l1 * noise_of(a, ka + k, b, kb + k);
+            }
+            by_a.add(ka, differences, share, solid_angle);
+            by_b.add(kb, differences, -share, solid_angle);
         }
     }
     result.albedo_difference = result.albedo_a - result.albedo_b;

@@ -4,6 +4,7 @@
 #include <asperity/core/error.h>
 #include <asperity/gonio/angles_of_lobe.h>
 #include <asperity/measured/analytic_measurement.h>
+#include <asperity/measured/patch_integrator.h>
 
 #include <gtest/gtest.h>
 
@@ -90,6 +91,25 @@ TEST(CellAverageTest, SameBitsForAnyNumberOfThreads) {
     const CellAverages one = average_over_cells(*brdf, detector, 1, 2, true, 1);
     for (const int threads : {2, 3, 7})
         EXPECT_EQ(one.energy, average_over_cells(*brdf, detector, 1, 2, true, threads).energy);
+}
+
+TEST(CellAverageTest, RowsHoldWhatTheirCellsHold) {
+    const Detector detector({DetectorKind::LatLong, 32, 1});
+    for (const char* spec : {"beckmann:alpha=0.1,material=Au", "ggx:alpha=0.2,alpha_y=0.4"}) {
+        const auto brdf = parse_brdf_spec(spec);
+        const CellAverages all = average_over_cells(*brdf, detector, 1, 2, true, 2);
+        const detail::CellIntegrator cells(*brdf, detector, 1, 2, true);
+        for (int cell = 0; cell < detector.cells(); ++cell) {
+            const detail::Channels one =
+                cells.integrate(cell / detector.columns(), cell % detector.columns());
+            for (int c = 0; c < brdf->channels(); ++c) {
+                const double energy = one[static_cast<std::size_t>(c)];
+                ASSERT_NEAR(all.energy[static_cast<std::size_t>(c * detector.cells() + cell)],
+                            energy, 1e-12 * energy + 1e-18)
+                    << spec << " " << cell;
+            }
+        }
+    }
 }
 
 TEST(CellAverageTest, IsotropicModeTurnsTheDetectorWithTheLight) {

@@ -46,6 +46,25 @@ void accumulate_shares(std::span<double> weights, std::span<const double> otherw
     weights.back() = 1;
 }
 
+/// Nodes of a row and what belongs to their cells.
+struct NodeRow {
+    std::size_t count;
+    const double *mean, *found;  ///< measured, and what the interpolation comes to
+    const double* doubt;         ///< by how much they may differ
+    const double *shape, *nodes;
+};
+
+/// Raises nodes by what the means over their cells miss, beyond doubt.
+void raise_nodes(const NodeRow& row, double* raised) {
+    for (std::size_t k = 0; k < row.count; ++k) {
+        const double missing = row.mean[k] - row.found[k];
+        const double beyond = std::abs(missing) - row.doubt[k];
+        const double certain = std::copysign(beyond > 0 ? beyond : 0, missing);
+        const double value = row.nodes[k] + certain / row.shape[k];
+        raised[k] = value > 0 ? value : 0;
+    }
+}
+
 }  // namespace
 
 CellGrid::CellGrid(const Detector& detector) : detector_(detector) {
@@ -104,10 +123,12 @@ LayerTable::LayerTable(std::shared_ptr<const CellGrid> grid, const Measurement& 
     const std::size_t cells = rows * columns;
     const CellWeights weights(detector, shape, layer.phi_i);
     f_.resize((cells + 1) * channels_);
-    std::vector<double> all_channels(cells, 0.0);
+    std::vector<double> all_channels(cells, 0.0), shapes(cells);
+    for (std::size_t cell = 0; cell < cells; ++cell)
+        shapes[cell] = weights.mean_of_shape(cell / columns, cell % columns);
     for (std::size_t channel = 0; channel < channels_; ++channel) {
         const int c = static_cast<int>(channel);
-        const std::vector<double> nodes = nodes_of(measurement, layer, c, weights);
+        const std::vector<double> nodes = nodes_of(measurement, layer, c, weights, shapes);
         double pole = 0;
         for (std::size_t cell = 0; cell < cells; ++cell) {
             f_[cell * channels_ + channel] = static_cast<float>(nodes[cell]);
@@ -122,31 +143,32 @@ LayerTable::LayerTable(std::shared_ptr<const CellGrid> grid, const Measurement& 
 }
 
 std::vector<double> LayerTable::nodes_of(const Measurement& measurement, const Layer& layer,
-                                         int channel, const CellWeights& weights) const {
+                                         int channel, const CellWeights& weights,
+                                         const std::vector<double>& shapes) const {
     const Detector& detector = grid_->detector();
     const std::size_t rows = static_cast<std::size_t>(detector.rows());
     const std::size_t columns = static_cast<std::size_t>(detector.columns());
     const std::size_t cells = rows * columns;
-    std::vector<double> nodes(cells), shape(cells), mean(cells), error(cells, 0.0);
+    std::vector<double> nodes(cells), mean(cells), doubt(cells, 0.0);
+    const std::vector<double> energies = measurement.energies(layer, channel);
+    const float* const errors =
+        layer.stderr_energy.empty()
+            ? nullptr
+            : layer.stderr_energy.data() + static_cast<std::size_t>(channel) * cells;
     for (std::size_t k = 0; k < cells; ++k) {
-        const int cell = static_cast<int>(k);
-        shape[k] = weights.mean_of_shape(k / columns, k % columns);
-        mean[k] = measurement.brdf(layer, channel, cell);
-        if (!layer.stderr_energy.empty()) error[k] = measurement.brdf_stderr(layer, channel, cell);
-        nodes[k] = mean[k] / shape[k];
+        const double size = detector.projected_solid_angle(static_cast<int>(k / columns));
+        mean[k] = energies[k] / size;
+        if (errors != nullptr) doubt[k] = 2 * (double{errors[k]} / size);
+        nodes[k] = mean[k] / shapes[k];
     }
     std::vector<double> raised(cells), here(columns);
     for (int pass = 0; pass < kPasses; ++pass) {
         for (std::size_t row = 0; row < rows; ++row) {
             weights.means(nodes, row, here);
-            for (std::size_t column = 0; column < columns; ++column) {
-                // Raise the node by what the mean over the cell misses, beyond twice its error.
-                const std::size_t k = row * columns + column;
-                const double missing = mean[k] - here[column];
-                const double certain =
-                    std::copysign(std::max(0.0, std::abs(missing) - 2 * error[k]), missing);
-                raised[k] = std::max(0.0, nodes[k] + certain / shape[k]);
-            }
+            raise_nodes(
+                {columns, mean.data() + row * columns, here.data(), doubt.data() + row * columns,
+                 shapes.data() + row * columns, nodes.data() + row * columns},
+                raised.data() + row * columns);
         }
         nodes.swap(raised);
     }

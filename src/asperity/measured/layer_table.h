@@ -64,9 +64,10 @@ class LayerTable {
     double pdf(Vec3 wo) const;
 
   private:
-    /// The nodes of one channel, the pole not among them.
+    /// The nodes of one channel, the pole not among them; `shapes`: the means of the shape.
     std::vector<double> nodes_of(const Measurement& measurement, const Layer& layer, int channel,
-                                 const CellWeights& weights) const;
+                                 const CellWeights& weights,
+                                 const std::vector<double>& shapes) const;
     void build_distribution(const CellWeights& weights, const std::vector<double>& f);
 
     std::shared_ptr<const CellGrid> grid_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/bsdf/bsdf.h>
 #include <asperity/core/directions.h>
+#include <asperity/core/parallel.h>
 #include <asperity/measured/lobe_guide.h>
 
 #include <algorithm>
@@ -19,11 +20,6 @@ const double kSeen = std::cos(radians(40));
 
 constexpr int kTilts = 90, kTurns = 72;  // where D is looked at for its integrals
 constexpr int kDistributionSide = 257, kSigmaSide = 49;
-
-struct Facet {
-    Vec3 wm;
-    double weight = 0;  ///< D dwm
-};
 
 }  // namespace
 
@@ -45,28 +41,32 @@ Vec3 LobeGuide::DirectionTable::node(int row, int column) const {
     return normalize(map.half_vector(column * step - 1, row * step - 1));
 }
 
-LobeGuide::LobeGuide(const LayerTable& table, Vec3 wi) {
+LobeGuide::LobeGuide(const LayerTable& table, Vec3 wi, int threads) {
     // What D says asks for sigma, and sigma for D: as the cosine at first, where nothing is hidden.
     for (int k = 0; k < 3; ++k) {
-        if (!find_sigma(table, wi) || tail_ > kBroad * kBroad) {
+        const std::vector<Facet> facets = find_facets(table, wi);
+        if (facets.empty() || tail_ > kBroad * kBroad) {
             const double width = std::sqrt(tail_);
             *this = LobeGuide();
             distribution_.map.stretch = width;
             return;
         }
+        find_sigma(facets, threads);
     }
     distribution_ = {{std::sqrt(tail_)}, kDistributionSide, {}};
-    for (int row = 0; row < kDistributionSide; ++row) {
-        for (int column = 0; column < kDistributionSide; ++column) {
-            const Vec3 wm = distribution_.node(row, column);
-            distribution_.values.push_back(
-                static_cast<float>(floor_ + seen_distribution(table, wi, wm)));
+    std::vector<float> values(kDistributionSide * kDistributionSide);
+    parallel_for(kDistributionSide, threads, [&](std::size_t row) {
+        for (std::size_t column = 0; column < kDistributionSide; ++column) {
+            const Vec3 wm = distribution_.node(static_cast<int>(row), static_cast<int>(column));
+            values[row * kDistributionSide + column] =
+                static_cast<float>(floor_ + seen_distribution(table, wi, wm));
         }
-    }
+    });
+    distribution_.values = std::move(values);
 }
 
-/// Also the floor and the tail. False where there is no light.
-bool LobeGuide::find_sigma(const LayerTable& table, Vec3 wi) {
+/// The facets that are seen, also the floor and the tail. Empty where there is no light.
+std::vector<LobeGuide::Facet> LobeGuide::find_facets(const LayerTable& table, Vec3 wi) {
     std::vector<Facet> facets;
     double projected = 0, squares = 0, most = 0;
     for (int i = 0; i < kTilts; ++i) {
@@ -82,20 +82,34 @@ bool LobeGuide::find_sigma(const LayerTable& table, Vec3 wi) {
             if (wm.z >= kSeen) squares += weight * wm.z * (1 - cos2) / cos2;
         }
     }
-    if (!(projected > 0)) return false;
+    if (!(projected > 0)) return {};
     tail_ = std::clamp(squares / projected, 1e-6, 4.0);
     floor_ = kFloor * most;
-    DirectionTable sigma{{}, kSigmaSide, {}};
-    for (int row = 0; row < kSigmaSide; ++row) {
-        for (int column = 0; column < kSigmaSide; ++column) {
-            const Vec3 w = sigma.node(row, column);
-            double sum = 0;
-            for (const Facet& facet : facets) sum += facet.weight * std::max(0.0, dot(w, facet.wm));
-            sigma.values.push_back(static_cast<float>(sum / projected));
+    return facets;
+}
+
+void LobeGuide::find_sigma(const std::vector<Facet>& facets, int threads) {
+    double projected = 0;
+    for (const Facet& facet : facets) projected += facet.weight * facet.wm.z;
+    DirectionTable sigma{{}, kSigmaSide, std::vector<float>(kSigmaSide * kSigmaSide)};
+    parallel_for(kSigmaSide, threads, [&](std::size_t row) {
+        std::array<double, kSigmaSide> x, y, z, sum{};
+        for (std::size_t k = 0; k < kSigmaSide; ++k) {
+            const Vec3 w = sigma.node(static_cast<int>(row), static_cast<int>(k));
+            x[k] = w.x;
+            y[k] = w.y;
+            z[k] = w.z;
         }
-    }
+        for (const auto& [wm, weight] : facets) {
+            for (std::size_t k = 0; k < kSigmaSide; ++k) {
+                const double cosine = x[k] * wm.x + y[k] * wm.y + z[k] * wm.z;
+                sum[k] += weight * (cosine > 0 ? cosine : 0);
+            }
+        }
+        for (std::size_t k = 0; k < kSigmaSide; ++k)
+            sigma.values[row * kSigmaSide + k] = static_cast<float>(sum[k] / projected);
+    });
     sigma_ = std::move(sigma);
-    return true;
 }
 
 double LobeGuide::sigma(Vec3 w) const {
@@ -127,8 +141,7 @@ double LobeGuide::seen_distribution(const LayerTable& table, Vec3 wi, Vec3 wm) c
 }
 
 double LobeGuide::operator()(Vec3 wi, Vec3 wo, Vec3 m) const {
-    const double facets = is_known() ? distribution_.at(m) : 1;
-    return facets / (sigma(wi) * sigma(wo));
+    return facets(m) / (sigma(wi) * sigma(wo));
 }
 
 void LobeGuide::albedo_over_facets(const Bsdf& brdf, Vec3 wi, FibonacciLattice lattice,

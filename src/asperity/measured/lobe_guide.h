@@ -31,13 +31,15 @@ class LobeGuide {
   public:
     LobeGuide() = default;
     /// `table` is of a layer whose light comes from `wi`, near the normal.
-    LobeGuide(const LayerTable& table, Vec3 wi);
+    LobeGuide(const LayerTable& table, Vec3 wi, int threads);
 
     bool is_known() const { return !sigma_.values.empty(); }
     /// guide(wi, wo); `m` = wi + wo, as long as it is. `wo` may lie below the horizon: it is taken
     /// to be on it.
     double operator()(Vec3 wi, Vec3 wo, Vec3 m) const;
     double sigma(Vec3 w) const;
+    /// guide(wi, wo) sigma(wi) sigma(wo).
+    double facets(Vec3 m) const { return is_known() ? distribution_.at(m) : 1; }
 
     /// The directional albedo of a BRDF that follows this guide: an integral over facets, spread by
     /// the width of D as far as it is seen, on the lattice. Lobes that move with the light lie
@@ -56,8 +58,14 @@ class LobeGuide {
         Vec3 node(int row, int column) const;  ///< unit
     };
 
+    struct Facet {
+        Vec3 wm;
+        double weight = 0;  ///< D dwm
+    };
+
     double seen_distribution(const LayerTable& table, Vec3 wi, Vec3 wm) const;
-    bool find_sigma(const LayerTable& table, Vec3 wi);
+    std::vector<Facet> find_facets(const LayerTable& table, Vec3 wi);
+    void find_sigma(const std::vector<Facet>& facets, int threads);
 
     DirectionTable distribution_, sigma_;
     double floor_ = 0;

@@ -4,6 +4,7 @@
 #include <asperity/core/directions.h>
 #include <asperity/core/error.h>
 #include <asperity/core/parallel.h>
+#include <asperity/measured/angle_nodes.h>
 #include <asperity/measured/baked_brdf.h>
 #include <asperity/measured/cosine_share.h>
 #include <asperity/measured/layer_table.h>
@@ -20,11 +21,11 @@
 namespace asperity {
 namespace {
 
-constexpr double kSameAngle = 1e-9;  ///< [rad]
-
 /// A layer as steep as this [rad] shows the distribution of normals.
 constexpr double kNearNormal = 0.2;
 
+using detail::bracket, detail::bracket_round, detail::Bracket;
+using detail::distinct, detail::positive_azimuth, detail::refine, detail::kSameAngle;
 using detail::kCosineShare;
 
 /// How much a layer is worth where its own light leaves with this cosine: less near the horizon,
@@ -40,63 +41,6 @@ FibonacciLattice lattice_over(int cells) {
     for (const FibonacciLattice lattice : {kFineLattice, kFinerLattice})
         if (lattice.points >= 2 * cells) return lattice;
     return kFinestLattice;
-}
-
-/// A value between nodes of a sorted list: nodes `index` and `next` with weights 1 - t and t.
-struct Bracket {
-    std::size_t index = 0, next = 0;
-    double t = 0;
-};
-
-/// Clamps to the ends of the list.
-Bracket bracket(std::span<const double> nodes, double x) {
-    if (x <= nodes.front()) return {0, 0, 0};
-    const std::size_t last = nodes.size() - 1;
-    if (x >= nodes.back()) return {last, last, 0};
-    const auto above = std::upper_bound(nodes.begin(), nodes.end(), x);
-    const std::size_t index = static_cast<std::size_t>(above - nodes.begin()) - 1;
-    return {index, index + 1, (x - nodes[index]) / (nodes[index + 1] - nodes[index])};
-}
-
-/// Runs round from the last node to the first; x and the nodes in [0, 2 pi).
-Bracket bracket_round(std::span<const double> nodes, double x) {
-    const std::size_t last = nodes.size() - 1;
-    if (last == 0) return {0, 0, 0};
-    if (x >= nodes.front() && x < nodes.back()) return bracket(nodes, x);
-    const double gap = nodes.front() + 2 * kPi - nodes.back();
-    const double beyond = x >= nodes.back() ? x - nodes.back() : x + 2 * kPi - nodes.back();
-    return {last, 0, beyond / gap};
-}
-
-/// The nodes and, between them, as many more as keep neighbours within `spacing`; from `low` to
-/// `high`.
-std::vector<double> refine(std::vector<double> nodes, double low, double high, double spacing) {
-    if (nodes.front() > low) nodes.insert(nodes.begin(), low);
-    if (nodes.back() < high) nodes.push_back(high);
-    std::vector<double> fine;
-    for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-        const int parts = std::max(
-            1, static_cast<int>(std::ceil((nodes[k + 1] - nodes[k]) / spacing - kSameAngle)));
-        for (int p = 0; p < parts; ++p)
-            fine.push_back(nodes[k] + (nodes[k + 1] - nodes[k]) * p / parts);
-    }
-    fine.push_back(nodes.back());
-    return fine;
-}
-
-/// Sorted, without repetitions.
-std::vector<double> distinct(std::vector<double> angles) {
-    std::sort(angles.begin(), angles.end());
-    std::vector<double> result;
-    for (const double a : angles)
-        if (result.empty() || a - result.back() > kSameAngle) result.push_back(a);
-    return result;
-}
-
-double positive_azimuth(double phi) {
-    const double turned = std::fmod(phi, 2 * kPi);
-    const double positive = turned < -kSameAngle ? turned + 2 * kPi : std::max(0.0, turned);
-    return positive < 2 * kPi - kSameAngle ? positive : 0.0;
 }
 
 [[noreturn]] void reject(std::string message) {
@@ -119,23 +63,42 @@ class TabulatedBrdf final : public Bsdf {
     std::vector<std::string> channel_names() const override { return channel_names_; }
     std::string name() const override { return name_; }
     void eval(Vec3 wi, Vec3 wo, std::span<double> f) const override;
+    void eval_at_facets(std::span<const Vec3> wi, std::span<const Vec3> wm,
+                        std::span<double> f) const override;
     std::optional<BsdfSample> sample(Vec3 wi, double u1, double u2) const override;
     double pdf(Vec3 wi, Vec3 wo) const override;
     void albedo(Vec3 wi, std::span<double> a) const override;
     bool isotropic() const override { return relative_; }
 
   private:
-    /// A layer that has a say, and the direction its light came from.
+    /// A layer that has a say.
     struct Corner {
-        const LayerTable* table = nullptr;
-        Vec3 wi;
+        std::size_t layer = 0;
         double weight = 0;
     };
     using Corners = std::array<Corner, 4>;
 
+    /// Incident light, turned to where the layers have theirs when azimuths are relative.
+    struct Light {
+        Vec3 wi;
+        double turn = 0, theta = 0, phi = 0, sigma = 0;  ///< sigma: of the guide
+        Corners corners;
+    };
+
+    /// How much what a layer says at a facet is to be trusted, and what its table holds f over.
+    struct Said {
+        double trust = 0, guide = 1;
+    };
+
     void read_layers(const Measurement& measurement, const Run& run);
     Corners corners(double theta_i, double phi_i) const;
     double turn_of(Vec3 wi) const;
+    Light light_from(Vec3 wi) const;
+    Said ask(std::size_t layer, Vec3 wm, std::span<double> f) const;
+    template <class AskCorner>
+    void blend(const Light& light, Vec3 wo, double facets, AskCorner ask_corner,
+               std::span<double> f) const;
+    void correct(const Light& light, std::span<double> f, std::size_t count) const;
     double pdf_turned(const Corners& corners, Vec3 wi, Vec3 wo) const;
 
     int channels_;
@@ -143,6 +106,7 @@ class TabulatedBrdf final : public Bsdf {
     std::string name_;
     std::vector<double> thetas_, phis_;  ///< of the layers, rising
     std::vector<LayerTable> tables_;     ///< [theta * phis + phi], over the guide
+    std::vector<Vec3> lights_;           ///< of the layers, as tables_
     LobeGuide guide_;
     bool relative_ = false;  ///< one azimuth stands for all
 
@@ -186,18 +150,24 @@ void TabulatedBrdf::read_layers(const Measurement& measurement, const Run& run) 
                         degrees(theta), degrees(phi)));
     };
     std::vector<const Layer*> layers;
-    for (const double theta : thetas_)
-        for (const double phi : phis_) layers.push_back(&layer_at(theta, phi));
+    for (const double theta : thetas_) {
+        for (const double phi : phis_) {
+            layers.push_back(&layer_at(theta, phi));
+            lights_.push_back(from_spherical(theta, phi));
+        }
+    }
     std::vector<std::optional<LayerTable>> tables(layers.size());
     if (thetas_.front() <= kNearNormal) {
         const LayerTable& steepest = tables[0].emplace(grid, measurement, *layers[0]);
-        guide_ = LobeGuide(steepest, from_spherical(thetas_.front(), phis_.front()));
+        guide_ = LobeGuide(steepest, lights_.front(), run.threads());
         if (guide_.is_known()) tables[0].reset();  // to be made over the guide
     }
     parallel_for(layers.size(), run.threads(), [&](std::size_t k) {
         if (!run.keep_going() || tables[k]) return;
-        const Vec3 wi = from_spherical(thetas_[k / phis_.size()], phis_[k % phis_.size()]);
-        const LobeShape shape = [&](Vec3 wo) { return guide_(wi, wo, wi + wo); };
+        const Vec3 wi = lights_[k];
+        const LobeShape shape = [this, wi, sigma = guide_.sigma(wi)](Vec3 wo) {
+            return guide_.facets(wi + wo) / (sigma * guide_.sigma(wo));
+        };
         tables[k].emplace(grid, measurement, *layers[k], guide_.is_known() ? shape : nullptr);
     });
     check_stop(run);
@@ -248,8 +218,7 @@ void TabulatedBrdf::normalise(int cells, const Run& run) {
 TabulatedBrdf::Corners TabulatedBrdf::corners(double theta_i, double phi_i) const {
     const Bracket t = bracket(thetas_, theta_i), p = bracket_round(phis_, phi_i);
     const auto corner = [&](std::size_t theta, std::size_t phi, double weight) {
-        return Corner{&tables_[theta * phis_.size() + phi],
-                      from_spherical(thetas_[theta], phis_[phi]), weight};
+        return Corner{theta * phis_.size() + phi, weight};
     };
     return {corner(t.index, p.index, (1 - t.t) * (1 - p.t)),
             corner(t.index, p.next, (1 - t.t) * p.t), corner(t.next, p.index, t.t * (1 - p.t)),
@@ -261,41 +230,114 @@ double TabulatedBrdf::turn_of(Vec3 wi) const {
     return relative_ ? phis_.front() - azimuth(wi) : 0.0;
 }
 
-void TabulatedBrdf::eval(Vec3 wi, Vec3 wo, std::span<double> f) const {
-    std::fill(f.begin(), f.end(), 0.0);
-    if (wi.z <= 0 || wo.z <= 0) return;
-    const double turn = turn_of(wi), theta_i = polar_angle(wi);
-    const double phi_i = relative_ ? phis_.front() : azimuth(wi);
-    const Vec3 wi_turned = rotate_z(wi, turn), wo_turned = rotate_z(wo, turn);
-    const Vec3 wm = normalize(wi_turned + wo_turned);
+TabulatedBrdf::Light TabulatedBrdf::light_from(Vec3 wi) const {
+    Light light;
+    light.turn = turn_of(wi);
+    light.theta = polar_angle(wi);
+    light.phi = relative_ ? phis_.front() : azimuth(wi);
+    light.wi = rotate_z(wi, light.turn);
+    light.sigma = guide_.sigma(light.wi);
+    light.corners = corners(light.theta, light.phi);
+    return light;
+}
 
-    // Ask every layer for the facet that mirrors wi to wo: there its lobe has the same place. Where
-    // the layer's light would have left near or below the horizon, trust the other layers.
-    std::array<double, kMaxBsdfChannels> values{};
-    const std::span<double> layer_f = std::span(values).first(f.size());
+/// Every layer is asked for the facet that mirrors wi to wo: there its lobe has the same place.
+/// Where the layer's light would have left near or below the horizon, others are trusted.
+TabulatedBrdf::Said TabulatedBrdf::ask(std::size_t layer, Vec3 wm, std::span<double> f) const {
+    const Vec3 wo = reflect(lights_[layer], wm);
+    tables_[layer].eval(wo, f);
+    const double trust = trust_at(wo.z);
+    // Without a guide the tables hold f itself.
+    return {trust, guide_.is_known() ? 1 : guide_(lights_[layer], wo, wm)};
+}
+
+/// f from what the layers of the corners say at a facet: ask_corner(layer) gives it and its f.
+template <class AskCorner>
+void TabulatedBrdf::blend(const Light& light, Vec3 wo, double facets, AskCorner ask_corner,
+                          std::span<double> f) const {
+    std::fill(f.begin(), f.end(), 0.0);
     double trusted = 0;
-    for (const Corner& corner : corners(theta_i, phi_i)) {
+    for (const Corner& corner : light.corners) {
         if (corner.weight == 0) continue;
-        const Vec3 wo_there = reflect(corner.wi, wm);
-        corner.table->eval(wo_there, layer_f);
-        const double trust = corner.weight * trust_at(wo_there.z);
-        // Without a guide the tables hold f itself.
-        const double weight = guide_.is_known() ? trust : trust / guide_(corner.wi, wo_there, wm);
-        for (std::size_t c = 0; c < f.size(); ++c) f[c] += weight * layer_f[c];
+        const auto [said, values] = ask_corner(corner.layer);
+        const double trust = corner.weight * said.trust, weight = trust / said.guide;
+        for (std::size_t c = 0; c < f.size(); ++c) f[c] += weight * values[c];
         trusted += trust;
     }
-    const double scale = guide_(wi_turned, wo_turned, wm) / trusted;
+    const double scale = facets / (light.sigma * guide_.sigma(wo)) / trusted;
     for (double& value : f) value *= scale;
+}
 
+/// Brings `count` f of all channels of one light to the albedo.
+void TabulatedBrdf::correct(const Light& light, std::span<double> f, std::size_t count) const {
     if (corrections_.empty()) return;
-    const Bracket t = bracket(theta_nodes_, theta_i), p = bracket_round(phi_nodes_, phi_i);
-    const std::size_t channels = f.size(), phis = phi_nodes_.size();
+    const Bracket t = bracket(theta_nodes_, light.theta), p = bracket_round(phi_nodes_, light.phi);
+    const std::size_t channels = static_cast<std::size_t>(channels_), phis = phi_nodes_.size();
     for (std::size_t c = 0; c < channels; ++c) {
         const auto at = [&](std::size_t theta, std::size_t phi) {
             return corrections_[(theta * phis + phi) * channels + c];
         };
-        f[c] *= (1 - t.t) * ((1 - p.t) * at(t.index, p.index) + p.t * at(t.index, p.next)) +
-                t.t * ((1 - p.t) * at(t.next, p.index) + p.t * at(t.next, p.next));
+        const double correction =
+            (1 - t.t) * ((1 - p.t) * at(t.index, p.index) + p.t * at(t.index, p.next)) +
+            t.t * ((1 - p.t) * at(t.next, p.index) + p.t * at(t.next, p.next));
+        for (std::size_t k = 0; k < count; ++k) f[k * channels + c] *= correction;
+    }
+}
+
+void TabulatedBrdf::eval(Vec3 wi, Vec3 wo, std::span<double> f) const {
+    if (wi.z <= 0 || wo.z <= 0) {
+        std::fill(f.begin(), f.end(), 0.0);
+        return;
+    }
+    const Light light = light_from(wi);
+    const Vec3 wo_turned = rotate_z(wo, light.turn), wm = normalize(light.wi + wo_turned);
+    std::array<double, kMaxBsdfChannels> values;
+    const std::span<double> said = std::span(values).first(f.size());
+    const auto ask_corner = [&](std::size_t layer) {
+        return std::pair(ask(layer, wm, said), values.data());
+    };
+    blend(light, wo_turned, guide_.facets(wm), ask_corner, f);
+    correct(light, f, 1);
+}
+
+/// What a layer says at a facet is the same for any light.
+void TabulatedBrdf::eval_at_facets(std::span<const Vec3> wi, std::span<const Vec3> wm,
+                                   std::span<double> f) const {
+    const std::size_t channels = static_cast<std::size_t>(channels_), facets = wm.size();
+    std::vector<Said> said(tables_.size() * facets);
+    std::vector<double> values(said.size() * channels), guided(facets);
+    std::vector<Vec3> turned(facets);
+    const auto ask_all = [&](double turn) {
+        for (std::size_t k = 0; k < facets; ++k) {
+            turned[k] = rotate_z(wm[k], turn);
+            guided[k] = guide_.facets(turned[k]);
+            for (std::size_t layer = 0; layer < tables_.size(); ++layer) {
+                const std::size_t place = layer * facets + k;
+                said[place] =
+                    ask(layer, turned[k], std::span(values).subspan(place * channels, channels));
+            }
+        }
+    };
+    std::optional<double> turn;  // of the light before
+    for (std::size_t n = 0; n < wi.size(); ++n) {
+        const Light light = light_from(wi[n]);
+        if (turn != light.turn) ask_all(light.turn);
+        turn = light.turn;
+        const std::span<double> all = f.subspan(n * facets * channels, facets * channels);
+        for (std::size_t k = 0; k < facets; ++k) {
+            const std::span<double> here = all.subspan(k * channels, channels);
+            const Vec3 wo = reflect(light.wi, turned[k]);
+            if (light.wi.z <= 0 || wo.z <= 0) {
+                std::fill(here.begin(), here.end(), 0.0);
+                continue;
+            }
+            const auto ask_corner = [&](std::size_t layer) {
+                const std::size_t place = layer * facets + k;
+                return std::pair(said[place], values.data() + place * channels);
+            };
+            blend(light, wo, guided[k], ask_corner, here);
+        }
+        correct(light, all, facets);
     }
 }
 
@@ -320,7 +362,8 @@ std::optional<BsdfSample> TabulatedBrdf::sample(Vec3 wi, double u1, double u2) c
             k = next;
         }
         u = std::clamp(u / all[k].weight, 0.0, std::nextafter(1.0, 0.0));
-        const Vec3 wm = normalize(all[k].wi + all[k].table->sample(u, u2));
+        const std::size_t layer = all[k].layer;
+        const Vec3 wm = normalize(lights_[layer] + tables_[layer].sample(u, u2));
         wo = reflect(wi_turned, wm);
     }
     if (wo.z <= 0) return std::nullopt;
@@ -339,9 +382,10 @@ double TabulatedBrdf::pdf_turned(const Corners& all, Vec3 wi, Vec3 wo) const {
     double density = 0;
     for (const Corner& corner : all) {
         // dwo = 4 (w . wm) dwm for either incident direction.
-        const double jacobian = dot(corner.wi, wm) / dot(wi, wm);
+        const Vec3 light = lights_[corner.layer];
+        const double jacobian = dot(light, wm) / dot(wi, wm);
         if (corner.weight > 0 && jacobian > 0)
-            density += corner.weight * corner.table->pdf(reflect(corner.wi, wm)) * jacobian;
+            density += corner.weight * tables_[corner.layer].pdf(reflect(light, wm)) * jacobian;
     }
     return kCosineShare * wo.z / kPi + (1 - kCosineShare) * density;
 }
@@ -350,7 +394,8 @@ void TabulatedBrdf::albedo(Vec3 wi, std::span<double> a) const {
     std::fill(a.begin(), a.end(), 0.0);
     if (wi.z <= 0) return;
     for (const Corner& corner : corners(polar_angle(wi), relative_ ? phis_.front() : azimuth(wi)))
-        for (std::size_t c = 0; c < a.size(); ++c) a[c] += corner.weight * corner.table->albedo(c);
+        for (std::size_t c = 0; c < a.size(); ++c)
+            a[c] += corner.weight * tables_[corner.layer].albedo(c);
 }
 
 }  // namespace

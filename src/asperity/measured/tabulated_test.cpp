@@ -197,6 +197,32 @@ TEST(TabulatedTest, AnisotropyIsInterpolatedOverAzimuth) {
               0.5);
 }
 
+TEST(TabulatedTest, FacetsMeanTheSameForManyLights) {
+    // With a guide and without, azimuths relative and not; facets that some light sees from below
+    const auto narrow = parse_brdf_spec("beckmann:alpha=0.1,f0=0.9/0.5/0.1");
+    const auto broad = parse_brdf_spec("beckmann:alpha=0.5");
+    const std::vector<Vec3> wi = {
+        from_spherical(0.2, 1), from_spherical(1.2, 1), from_spherical(0.7, 4), {0, 0, 1}};
+    std::vector<Vec3> wm;
+    for (const double theta : {0.0, 0.1, 0.4, 1.0})
+        for (int k = 0; k < 5; ++k) wm.push_back(from_spherical(theta, 1.3 * k));
+    for (const Bsdf* model : {narrow.get(), broad.get()}) {
+        for (const std::vector<double>& phis : {std::vector{25.0}, {0.0, 90.0, 180.0, 270.0}}) {
+            const auto table =
+                make_tabulated_brdf(test::measurement_of(*model, layers_at({5, 40, 70}, phis, 32)));
+            const auto channels = static_cast<std::size_t>(table->channels());
+            std::vector<double> all(wi.size() * wm.size() * channels), one(channels);
+            table->eval_at_facets(wi, wm, all);
+            for (std::size_t k = 0; k < all.size(); ++k) {
+                const Vec3 light = wi[k / channels / wm.size()];
+                table->eval(light, reflect(light, wm[k / channels % wm.size()]), one);
+                const double f = one[k % channels];
+                ASSERT_NEAR(all[k], f, 1e-9 * f) << k;
+            }
+        }
+    }
+}
+
 TEST(TabulatedTest, BeyondTheLastLayerItsLobeMovesOn) {
     const auto model = parse_brdf_spec("beckmann:alpha=0.2");
     const auto table =
