@@ -145,4 +145,9 @@ io::ResultHead load_result_head(const std::string& path) {
     return io::load_head(path);
 }
 
+io::ResultHead load_result_lobes(const std::string& path) {
+    require_kind(path, FileKind::Result);
+    return io::load_lobes(path);
+}
+
 }  // namespace asperity::cli

@@ -26,5 +26,7 @@ std::string did_you_mean_file(const std::string& path);
 Measurement load_result(const std::string& path);
 /// The same without its cells: io::load_head.
 io::ResultHead load_result_head(const std::string& path);
+/// The same to make a table of: io::load_lobes.
+io::ResultHead load_result_lobes(const std::string& path);
 
 }  // namespace asperity::cli

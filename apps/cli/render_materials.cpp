@@ -21,7 +21,7 @@ constexpr std::size_t kMostBrdfs = 2;  ///< left and right of the split
 std::shared_ptr<const Bsdf> load_brdf(const std::string& text, Run& run, io::Provenance& origin) {
     if (is_brdf_spec(text)) return parse_brdf_spec(text);
     if (const auto file = open_brdf(text, io::BsdfFormats())) return bake_brdf(*file, run);
-    const Measurement m = load_result(text);
+    const auto [m, checksum] = load_result_lobes(text);
     if (m.channels() != 1 && m.channels() != 3) {
         throw Error(ErrorCode::InvalidInput,
                     fmt::format("has {} channels, a picture needs 1 (grey) or 3 (red, green, "
@@ -30,7 +30,7 @@ std::shared_ptr<const Bsdf> load_brdf(const std::string& text, Run& run, io::Pro
                     text);
     }
     origin.emplace_back("experiment", to_text(m.experiment));
-    origin.emplace_back("experiment-checksum", io::checksum(m));
+    origin.emplace_back("experiment-checksum", checksum);
     return bake_brdf(m, run);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <asperity/core/parallel.h>
+#include <asperity/core/run.h>
 #include <asperity/formats/results/tensor_file.h>
 
 #include <fmt/format.h>
@@ -70,13 +72,15 @@ class FieldReader {
     void read_each(const char* name, TensorType type, const Shape& shape,
                    std::vector<Owner>& owners, Part part) {
         const TensorField& found = field(name, type, shape);
-        std::vector<std::span<std::byte>> parts;
-        for (Owner& owner : owners) {
-            auto& numbers = part(owner);
+        std::vector<std::span<std::byte>> parts(owners.size());
+        // What takes time is that the system gives pages of memory
+        const int threads = found.bytes < (1 << 20) ? 1 : Run().threads();
+        parallel_for(owners.size(), threads, [&](std::size_t k) {
+            auto& numbers = part(owners[k]);
             numbers.resize(static_cast<std::size_t>(found.bytes / owners.size()) /
                            sizeof(numbers[0]));
-            parts.push_back(std::as_writable_bytes(std::span(numbers)));
-        }
+            parts[k] = std::as_writable_bytes(std::span(numbers));
+        });
         file_.read_parts(found, parts);
     }
 

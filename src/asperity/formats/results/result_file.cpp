@@ -29,9 +29,14 @@ class ResultReader : FieldReader {
         read_layers();
         read_cells();
         read_spreads();
-        check_whole();
-        if (const std::string why = contradiction(result_); !why.empty())
-            file_.fail(first_of({"energy", "energy_of_paths"}).offset, why);
+        std::string why;
+        parallel_for(2, Run().threads(), [&](std::size_t check) {
+            if (check == 0)
+                check_whole();
+            else
+                why = contradiction(result_);
+        });
+        if (!why.empty()) file_.fail(first_of({"energy", "energy_of_paths"}).offset, why);
         return std::move(result_);
     }
 
@@ -44,6 +49,12 @@ class ResultReader : FieldReader {
         read_settings();
         read_layers();
         return {std::move(result_), text("checksum")};
+    }
+
+    ResultHead read_lobes() {
+        without_groups_ = file_.find("group_energy_rest") != nullptr;
+        Measurement lobes = read();
+        return {std::move(lobes), text("checksum")};
     }
 
   private:
@@ -206,10 +217,11 @@ class ResultReader : FieldReader {
             "energy_squares_rest", TensorType::U64, {cells[0], 2, cells[1], cells[2], cells[3]},
             spared_, [](SparedLayer & s) -> auto& { return s.squares; });
         const CoarseGrid grid(result_.shape());
-        read_each(
-            "group_energy_rest", TensorType::U64,
-            {cells[0], cells[1], GroupSums::kGroups, grid.down, grid.across}, spared_,
-            [](SparedLayer & s) -> auto& { return s.groups; });
+        if (!without_groups_)
+            read_each(
+                "group_energy_rest", TensorType::U64,
+                {cells[0], cells[1], GroupSums::kGroups, grid.down, grid.across}, spared_,
+                [](SparedLayer & s) -> auto& { return s.groups; });
         if (file_.find("energy_of_paths") != nullptr) read_known(cells);
         const bool errors_follow = file_.find("stderr_energy") == nullptr;
         const SumShape shape = result_.shape();
@@ -217,7 +229,14 @@ class ResultReader : FieldReader {
             spared_[k].errors_follow = errors_follow;
             restore(result_.layers[k], spared_[k], shape);
             spared_[k] = {};
+            if (without_groups_) forget_groups(result_.layers[k].spread);
         });
+    }
+
+    static void forget_groups(LayerSpread& spread) {
+        spread.reached.clear();
+        spread.albedo_by_age.clear();
+        spread.groups = {};
     }
 
     void read_known(const Shape& cells) {
@@ -320,6 +339,7 @@ class ResultReader : FieldReader {
     }
 
     Measurement result_;
+    bool without_groups_ = false;
     std::vector<Digest> digests_;  ///< of the fields that the table of checksums covers
     std::vector<SparedLayer> spared_;
 };
@@ -347,6 +367,15 @@ ResultHead load_head(const std::string& path) {
     const TensorFile file(path);
     try {
         return ResultReader(file).read_head();
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorCode::OutOfMemory, "too large for the memory there is", path);
+    }
+}
+
+ResultHead load_lobes(const std::string& path) {
+    const TensorFile file(path);
+    try {
+        return ResultReader(file).read_lobes();
     } catch (const std::bad_alloc&) {
         throw Error(ErrorCode::OutOfMemory, "too large for the memory there is", path);
     }

@@ -31,6 +31,11 @@ struct ResultHead {
 /// checksums does not cover the file.
 ResultHead load_head(const std::string& path);
 
+/// All that a table of the lobes is made of, errors of cells included: reads what
+/// load_measurement() does, and refuses what it refuses, but leaves out what errors of several
+/// cells come from (CellErrors) where it can.
+ResultHead load_lobes(const std::string& path);
+
 /// True when the file starts like a tensor container; false for anything else, unreadable included.
 bool looks_like_result(const std::string& path);
 

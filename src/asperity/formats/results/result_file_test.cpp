@@ -173,6 +173,25 @@ TEST(ResultFile, KeepsWhatTheErrorsComeFrom) {
     }
 }
 
+TEST(ResultFile, LobesAreAllButWhatErrorsOfSeveralCellsComeFrom) {
+    const TemporaryFolder folder;
+    std::mt19937_64 engine(6);
+    Measurement m = small_measurement();
+    for (const bool with_spread : {false, true}) {
+        if (with_spread)
+            for (Layer& layer : m.layers) add_spread(m, layer, true, engine);
+        const std::string sum = save_measurement(m, folder / "r.asperity");
+        const ResultHead lobes = load_lobes(folder / "r.asperity");
+        expect_equal(lobes.measurement, m);
+        EXPECT_EQ(lobes.checksum, sum);
+        for (std::size_t k = 0; k < m.layers.size(); ++k) {
+            const LayerSpread& spread = lobes.measurement.layers[k].spread;
+            EXPECT_TRUE(spread.squares == m.layers[k].spread.squares);
+            EXPECT_TRUE(spread.groups == GroupSums());
+        }
+    }
+}
+
 // A file of format 1, as older versions wrote it.
 TEST(ResultFile, OpensFilesOfTheFirstFormat) {
     const TemporaryFolder folder;
@@ -259,8 +278,9 @@ TEST(ResultFile, RefusesEveryFlippedByte) {
         write_byte(place, static_cast<char>(good[place] ^ bits));
         const auto error = error_of([&] { load_measurement(path); });
         const auto of_head = error_of([&] { load_head(path); });
+        const auto of_lobes = error_of([&] { load_lobes(path); });
         write_byte(place, good[place]);
-        ASSERT_TRUE(error && of_head) << "byte " << place << " of " << good.size();
+        ASSERT_TRUE(error && of_head && of_lobes) << "byte " << place << " of " << good.size();
         EXPECT_EQ(error->code(), ErrorCode::InvalidInput) << error->what();
         EXPECT_NE(std::string(error->what()).find("r.asperity: offset "), std::string::npos)
             << error->what();

@@ -246,10 +246,12 @@ void restore(Layer& layer, const SparedLayer& spared, const SumShape& shape) {
                        guessed +
                        unfolded((Wide{spared.squares[size + k]} << 64) | spared.squares[k]);
         });
-        layer.spread.groups.energy.resize(spared.groups.size());
-        guess.for_groups([&](std::size_t out, std::size_t in, std::uint64_t guessed) {
-            return layer.spread.groups.energy[in] = guessed + unfolded(spared.groups[out]);
-        });
+        if (!spared.groups.empty()) {
+            layer.spread.groups.energy.resize(spared.groups.size());
+            guess.for_groups([&](std::size_t out, std::size_t in, std::uint64_t guessed) {
+                return layer.spread.groups.energy[in] = guessed + unfolded(spared.groups[out]);
+            });
+        }
     }
     layer.spread.exact.resize(spared.known.size());
     for (std::size_t k = 0; k < spared.known.size(); ++k) {
