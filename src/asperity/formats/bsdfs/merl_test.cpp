@@ -5,6 +5,8 @@
 #include <asperity/formats/test_files.h>
 
 #include <array>
+#include <cstring>
+#include <string>
 
 namespace asperity::io {
 namespace {
@@ -45,13 +47,21 @@ TEST(Merl, HoldsModelsWithinFivePercent) {
     const Fidelity fidelity = fidelity_of(source, merl, folder / "a.binary");
     EXPECT_LT(fidelity.mean_l1, 0.05);
     EXPECT_LT(std::abs(fidelity.max_albedo_difference), 0.01);
-    // The channels have scales of their own in the file: a cell's middle comes back in each.
+    // The channels have scales of their own in the file: a cell's middle comes back in each, and
+    // what stands there is f over the database's scales, 1, 1.15 and 1.66 of 1500.
     const auto file = formats.read(folder / "a.binary");
-    const auto [wi, wo] = directions_of(centre_of(90 + 180 * (20 + 90 * 15)));
-    std::array<double, 3> expected{}, found{};
+    constexpr std::size_t kCell = 90 + 180 * (20 + 90 * 15), kAllCells = 1'458'000;
+    const auto [wi, wo] = directions_of(centre_of(kCell));
+    std::array<double, 3> expected{}, found{}, stored{};
+    const std::string bytes = test::get(folder / "a.binary");
+    for (std::size_t c = 0; c < 3; ++c)
+        std::memcpy(&stored[c], &bytes[12 + 8 * (c * kAllCells + kCell)], sizeof(double));
     source.bsdf().eval(wi, wo, expected);
     file->eval(wi, wo, found);
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 1e-9 * expected[c]);
+    constexpr std::array kScale = {1.0 / 1500, 1.15 / 1500, 1.66 / 1500};
+    for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(stored[c] * kScale[c], expected[c], 1e-9 * expected[c]);
 }
 
 TEST(Merl, RefusesOtherSizes) {
