@@ -7,6 +7,8 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -51,16 +53,48 @@ std::span<const std::byte> gather(std::span<const std::span<const std::byte>> pa
     return copy;
 }
 
-/// The k-th bytes of all numbers side by side.
+/// Eight rows of eight bytes as columns: swaps squares of bytes across the diagonal, from the
+/// largest on.
+void transpose(std::array<std::uint64_t, 8>& rows) {
+    const auto swap = [&](std::size_t apart, unsigned shift, std::uint64_t mask) {
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            if ((k & apart) != 0) continue;
+            const std::uint64_t x = ((rows[k] >> shift) ^ rows[k + apart]) & mask;
+            rows[k + apart] ^= x;
+            rows[k] ^= x << shift;
+        }
+    };
+    swap(4, 32, 0x00000000ffffffff);
+    swap(2, 16, 0x0000ffff0000ffff);
+    swap(1, 8, 0x00ff00ff00ff00ff);
+}
+
+/// The k-th bytes of all numbers side by side, and back.
 template <std::size_t kWidth>
 void sort_bytes(const std::byte* numbers, std::size_t count, std::byte* sorted) {
-    for (std::size_t n = 0; n < count; ++n)
+    std::size_t n = 0;
+    if constexpr (kWidth == 8)
+        for (std::array<std::uint64_t, 8> rows; n + 8 <= count; n += 8) {
+            std::memcpy(rows.data(), numbers + n * kWidth, sizeof rows);
+            transpose(rows);
+            for (std::size_t k = 0; k < kWidth; ++k)
+                std::memcpy(sorted + k * count + n, &rows[k], sizeof rows[k]);
+        }
+    for (; n < count; ++n)
         for (std::size_t k = 0; k < kWidth; ++k) sorted[k * count + n] = numbers[n * kWidth + k];
 }
 
 template <std::size_t kWidth>
 void unsort_bytes(const std::byte* sorted, std::size_t count, std::byte* numbers) {
-    for (std::size_t n = 0; n < count; ++n)
+    std::size_t n = 0;
+    if constexpr (kWidth == 8)
+        for (std::array<std::uint64_t, 8> rows; n + 8 <= count; n += 8) {
+            for (std::size_t k = 0; k < kWidth; ++k)
+                std::memcpy(&rows[k], sorted + k * count + n, sizeof rows[k]);
+            transpose(rows);
+            std::memcpy(numbers + n * kWidth, rows.data(), sizeof rows);
+        }
+    for (; n < count; ++n)
         for (std::size_t k = 0; k < kWidth; ++k) numbers[n * kWidth + k] = sorted[k * count + n];
 }
 
@@ -103,6 +137,28 @@ class Packer {
     std::vector<std::byte> frame_, sorted_;
 };
 
+/// First bytes of a frame that zstd skips; a u32 with the number of bytes that follow is the rest
+/// of its head.
+constexpr std::uint32_t kFilling = 0x184D2A50;
+
+/// At least so many bytes that say nothing.
+void append_filling(std::vector<std::byte>& frames, std::uint64_t bytes) {
+    const std::array<std::uint32_t, 2> head = {
+        kFilling,
+        static_cast<std::uint32_t>(std::max<std::uint64_t>(bytes, sizeof head) - sizeof head)};
+    const auto bytes_of_head = std::as_bytes(std::span(head));
+    frames.insert(frames.end(), bytes_of_head.begin(), bytes_of_head.end());
+    frames.resize(frames.size() + head[1]);
+}
+
+/// True for one frame that zstd skips, and nothing behind it.
+bool is_filling(std::span<const std::byte> data) {
+    std::array<std::uint32_t, 2> head = {};
+    if (data.size() < sizeof head) return false;
+    std::memcpy(head.data(), data.data(), sizeof head);
+    return head[0] == kFilling && head[1] == data.size() - sizeof head;
+}
+
 [[noreturn]] void fail(std::size_t k, const char* why) {
     throw std::runtime_error(fmt::format("frame {} {}", k, why));
 }
@@ -125,7 +181,9 @@ std::vector<std::byte> pack(std::span<const std::span<const std::byte>> parts, s
     });
     std::vector<std::byte> all;
     for (const auto& frame : frames) all.insert(all.end(), frame.begin(), frame.end());
-    if (all.size() >= bytes || all.size() < bytes / kMostPacked + 1) return {};
+    const std::uint64_t least = bytes / kMostPacked + 1;
+    if (all.size() < least) append_filling(all, least - all.size());
+    if (all.size() >= bytes) return {};
     return all;
 }
 
@@ -143,7 +201,8 @@ PackedData::PackedData(std::vector<std::byte> frames, std::uint64_t bytes, std::
         place += size;
     }
     begins_.push_back(place);
-    if (place != frames_.size()) fail(frames_of(bytes), "is one too many");
+    if (place != frames_.size() && !is_filling(std::span(frames_).subspan(place)))
+        fail(frames_of(bytes), "is one too many");
 }
 
 std::span<const std::byte> PackedData::frame(std::size_t k) const {
@@ -164,10 +223,10 @@ void PackedData::unpack(std::size_t k, std::span<std::byte> place) const {
         decompress(place.data());
         return;
     }
-    std::vector<std::byte> sorted(place.size());
-    decompress(sorted.data());
+    const auto sorted = std::make_unique_for_overwrite<std::byte[]>(place.size());
+    decompress(sorted.get());
     with_width(width_, [&](auto bytes) {
-        unsort_bytes<bytes()>(sorted.data(), sorted.size() / bytes(), place.data());
+        unsort_bytes<bytes()>(sorted.get(), place.size() / bytes(), place.data());
     });
 }
 

@@ -17,8 +17,8 @@ inline constexpr std::uint64_t kMostPacked = 400;
 /// The parts, one after the other, as zstd frames of kFrameBytes each, on all threads of the
 /// machine; the same bytes for any number of them. Of numbers of `width` bytes each frame holds
 /// first the lowest byte of all, then the second one and so on: of energies the high ones are
-/// alike. `width` divides kFrameBytes and the parts together. Empty if that is not worth it: the
-/// parts are small, or would become more than kMostPacked times smaller.
+/// alike. `width` divides kFrameBytes and the parts together. What would become more than
+/// kMostPacked times smaller gets a frame behind it that zstd skips. Empty if that is not worth it.
 std::vector<std::byte> pack(std::span<const std::span<const std::byte>> parts,
                             std::size_t width = 1);
 

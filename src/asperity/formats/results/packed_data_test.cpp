@@ -95,12 +95,33 @@ TEST(PackedData, WhatIsNotWorthItStaysAsItIs) {
     };
     EXPECT_FALSE(is_packed({}));
     EXPECT_FALSE(is_packed(content(1000)));
-    // Zeros would make a small file that asks for much memory
-    EXPECT_FALSE(is_packed(std::vector<std::byte>(8 << 20)));
     std::vector<std::byte> noise(1 << 20);
     std::mt19937_64 engine(1);
     for (std::byte& b : noise) b = static_cast<std::byte>(engine());
     EXPECT_FALSE(is_packed(noise));
+}
+
+// Zeros would make a small file that asks for much memory.
+TEST(PackedData, NothingBecomesTooSmall) {
+    for (const std::size_t bytes : {std::size_t{70000}, std::size_t{8} << 20}) {
+        const std::vector<std::byte> zeros(bytes);
+        const std::span<const std::byte> part(zeros);
+        const std::vector<std::byte> packed = pack(std::span(&part, 1));
+        EXPECT_GE(packed.size(), bytes / kMostPacked + 1);
+        EXPECT_LE(packed.size(), bytes / kMostPacked + 9);
+        std::vector<std::byte> back(bytes, std::byte{1});
+        PackedData(packed, bytes).read(0, back);
+        EXPECT_TRUE(back == zeros);
+        // What fills up stands behind all else, once, and nothing behind it
+        for (const std::size_t cut : {std::size_t{1}, std::size_t{40}}) {
+            std::vector<std::byte> other(packed.begin(),
+                                         packed.end() - static_cast<std::ptrdiff_t>(cut));
+            EXPECT_THROW(PackedData(other, bytes), std::runtime_error);
+        }
+        std::vector<std::byte> longer = packed;
+        longer.push_back(std::byte{0});
+        EXPECT_THROW(PackedData(longer, bytes), std::runtime_error);
+    }
 }
 
 TEST(PackedData, DamageIsFound) {
