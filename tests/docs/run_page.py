@@ -42,9 +42,11 @@ with tempfile.TemporaryDirectory() as folder:
                     assert line.startswith("asperity "), f"not a command of ours: {line}"
                     run(line, folder)
         elif language == "python" and "import asperity" not in text:
-            run("asperity simulate --quiet --size 64 --resolution 64 --layers 3 -o r.asperity", folder)
             pathlib.Path(f"{folder}/block.py").write_text(text)
-            run("/usr/bin/python3 block.py", folder)
+            for options in ("", "--isotropic --material Au", "--roughness 0.02 --material Cu"):
+                run(f"asperity simulate --quiet --size 64 --resolution 64 --layers 3 {options} "
+                    "-o r.asperity", folder)
+                run("/usr/bin/python3 block.py", folder)
         elif language == "cpp":
             runs += 1
             example = re.search(r"\(examples/(\w+\.cpp)\)", page.read_text()).group(1)

@@ -7,10 +7,17 @@
 #include <asperity/surface/statistics.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace asperity {
+
+/// Sums over all cells and channels of a layer of the squared standard errors of their energy.
+struct CellNoise {
+    double rays = 0;  ///< those that the rays make
+    double both = 0;  ///< those of rays and surfaces
+};
 
 /// What the errors of a layer come from, so that more batches can be added to it: sums of squares
 /// over batches, see LayerSums. Index order as in the Layer's arrays.
@@ -26,6 +33,7 @@ struct LayerSpread {
     std::vector<LayerSums::Spread> albedo_by_age;  ///< [age * values + value], see LayerSums
     LayerSums::Halves halves;  ///< like squares and albedo; empty for one surface
     GroupSums groups;
+    std::optional<CellNoise> cell_noise;  ///< in place of cells that were not read: io::load_head
 };
 
 /// Light that left the surface for one incident direction, sorted by outgoing direction.

@@ -15,15 +15,14 @@ double error_of(LayerSums::Wide halves, const Layer& layer) {
            (static_cast<double>(kRayEnergy) * static_cast<double>(layer.rays));
 }
 
-/// Sums of squares: of the rays, and of both.
-struct Parts {
-    double rays = 0, both = 0;
-    void add(double of_rays, double of_both) {
-        rays += of_rays * of_rays;
-        both += of_both * of_both;
-    }
-    double share() const { return both > 0 ? std::min(1.0, rays / both) : 0.0; }
-};
+void add(CellNoise& sums, double of_rays, double of_both) {
+    sums.rays += of_rays * of_rays;
+    sums.both += of_both * of_both;
+}
+
+double share(const CellNoise& sums) {
+    return sums.both > 0 ? std::min(1.0, sums.rays / sums.both) : 0.0;
+}
 
 }  // namespace
 
@@ -38,19 +37,29 @@ double energy_error_of_rays(const Layer& layer, std::size_t k) {
     return halves.empty() ? double{layer.stderr_energy[k]} : error_of(halves[k], layer);
 }
 
+std::optional<CellNoise> cell_noise_of(const Layer& layer) {
+    const LayerSums::Halves& halves = layer.spread.halves;
+    if (halves.cells.empty()) return layer.spread.cell_noise;
+    CellNoise sums;
+    for (std::size_t k = 0; k < halves.cells.size(); ++k)
+        add(sums, error_of(halves.cells[k], layer), double{layer.stderr_energy[k]});
+    return sums;
+}
+
 std::optional<NoiseShares> shares_of_rays(std::span<const Layer> layers) {
-    Parts albedo, cells;
+    CellNoise albedo, cells;
     for (const Layer& layer : layers) {
-        const LayerSums::Halves& halves = layer.spread.halves;
+        const auto noise = cell_noise_of(layer);
         // One surface alone does not tell how others differ
-        if (halves.cells.empty() || layer.batches < 2) return std::nullopt;
-        for (std::size_t c = 0; c < halves.albedo.size(); ++c)
-            albedo.add(error_of(halves.albedo[c], layer), layer.stderr_albedo[c]);
-        for (std::size_t k = 0; k < halves.cells.size(); ++k)
-            cells.add(error_of(halves.cells[k], layer), double{layer.stderr_energy[k]});
+        if (!noise || layer.batches < 2) return std::nullopt;
+        const auto& halves = layer.spread.halves.albedo;
+        for (std::size_t c = 0; c < halves.size(); ++c)
+            add(albedo, error_of(halves[c], layer), layer.stderr_albedo[c]);
+        cells.rays += noise->rays;
+        cells.both += noise->both;
     }
     if (layers.empty()) return std::nullopt;
-    return NoiseShares{albedo.share(), cells.share()};
+    return NoiseShares{share(albedo), share(cells)};
 }
 
 }  // namespace asperity

@@ -20,6 +20,9 @@ struct NoiseShares {
 /// one layer's albedo is right to about sqrt(4 / n) of itself, that of the cells to far less.
 std::optional<NoiseShares> shares_of_rays(std::span<const Layer> layers);
 
+/// What that of cells is told from. Nothing where one surface was measured.
+std::optional<CellNoise> cell_noise_of(const Layer& layer);
+
 /// The part of a layer's standard errors that the rays make: of the albedo, and of the energy of a
 /// cell (fractions of the launched energy). All of them where one surface was measured.
 double albedo_error_of_rays(const Layer& layer, int channel);

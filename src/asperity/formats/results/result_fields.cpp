@@ -4,7 +4,9 @@
 #include <asperity/core/parallel.h>
 #include <asperity/core/run.h>
 #include <asperity/formats/results/result_file.h>
+#include <asperity/formats/results/spared_fields.h>
 #include <asperity/gonio/experiment_text.h>
+#include <asperity/gonio/noise_shares.h>
 
 #include <algorithm>
 #include <array>
@@ -155,6 +157,13 @@ void ResultFields::add_halves() {
     }
     blocks_.push_back(std::move(cells));
     blocks_.push_back(std::move(all));
+    std::vector<double> noise(2 * layers.size());
+    parallel_for(layers.size(), Run().threads(), [&](std::size_t k) {
+        const CellNoise sums = cell_noise_of(layers[k]).value_or(CellNoise());
+        noise[2 * k] = sums.rays;
+        noise[2 * k + 1] = sums.both;
+    });
+    add_values<double>("cell_noise", TensorType::F64, {layers.size(), 2}, noise);
 }
 
 void ResultFields::add_where_needed(const char* name,
@@ -231,15 +240,38 @@ void ResultFields::add_wide(const char* name, std::vector<std::uint64_t> shape,
 }
 
 bool in_checksum(std::string_view name) {
-    constexpr std::array<std::string_view, 23> kLeftOut = {
-        "provenance",        "sides",          "elements",
-        "largest_batch",     "batches_done",   "energy_squares",
-        "energy_stretched",  "escaped_spread", "escaped_by_bounce_spread",
-        "energy_of_rays",    "group_rays",     "escaped_spread_by_age",
-        "batches_reached",   "group_energy",   "energy_halves",
-        "escaped_halves",    "energy_known",   "known_unit",
-        "known_squares",     "known_of_group", "energy_squares_rest",
-        "group_energy_rest", "checksum"};
+    constexpr std::array<std::string_view, 32> kLeftOut = {"provenance",
+                                                           "sides",
+                                                           "elements",
+                                                           "largest_batch",
+                                                           "batches_done",
+                                                           "energy_squares",
+                                                           "energy_stretched",
+                                                           "escaped_spread",
+                                                           "escaped_by_bounce_spread",
+                                                           "energy_of_rays",
+                                                           "group_rays",
+                                                           "escaped_spread_by_age",
+                                                           "batches_reached",
+                                                           "group_energy",
+                                                           "energy_halves",
+                                                           "escaped_halves",
+                                                           "cell_noise",
+                                                           "path_counts",
+                                                           "energy_of_a_path",
+                                                           "energy_zeros",
+                                                           "sum_zeros",
+                                                           "path_squares_rest",
+                                                           "energy_squares_rest",
+                                                           "path_group_rest",
+                                                           "group_energy_rest",
+                                                           "path_halves_rest",
+                                                           "energy_halves_rest",
+                                                           "energy_known",
+                                                           "known_unit",
+                                                           "known_squares",
+                                                           "known_of_group",
+                                                           "checksum"};
     return std::find(kLeftOut.begin(), kLeftOut.end(), name) == kLeftOut.end();
 }
 
@@ -259,12 +291,6 @@ void ResultFields::sum_up() {
     checksum_ = io::checksum_of(counted);
 }
 
-void ResultFields::replace(std::string_view name, TensorBlock block) {
-    const auto same = [&](const TensorBlock& b) { return b.name == name; };
-    const auto found = std::find_if(blocks_.begin(), blocks_.end(), same);
-    if (found != blocks_.end()) *found = std::move(block);
-}
-
 void ResultFields::leave_out() {
     const std::vector<Layer>& layers = measurement_.layers;
     const auto holds_all = [](const Layer& layer) {
@@ -275,59 +301,22 @@ void ResultFields::leave_out() {
     spared_.resize(layers.size());
     parallel_for(layers.size(), Run().threads(),
                  [&](std::size_t k) { spared_[k] = spare(layers[k], shape); });
+    const bool errors_follow = std::all_of(spared_.begin(), spared_.end(),
+                                           [](const SparedLayer& s) { return s.errors_follow; });
     std::erase_if(blocks_, [&](const TensorBlock& b) {
-        return b.name == "stderr_energy" &&
-               std::all_of(spared_.begin(), spared_.end(),
-                           [](const SparedLayer& s) { return s.errors_follow; });
+        return b.name == "energy_squares" || b.name == "group_energy" ||
+               b.name == "energy_halves" || (errors_follow && b.name == "stderr_energy");
     });
-    const std::uint64_t channels = shape.channels, rows = extent(measurement_.detector.rows());
-    const std::uint64_t columns = shape.columns;
-    const CoarseGrid grid(shape);
-    TensorBlock squares = {
-        "energy_squares_rest", TensorType::U64, {layers.size(), 2, channels, rows, columns}, {}};
-    TensorBlock groups = {"group_energy_rest",
-                          TensorType::U64,
-                          {layers.size(), channels, GroupSums::kGroups, grid.down, grid.across},
-                          {}};
-    for (const SparedLayer& s : spared_) {
-        squares.parts.push_back(std::as_bytes(std::span(s.squares)));
-        groups.parts.push_back(std::as_bytes(std::span(s.groups)));
+    for (TensorBlock& block : spared_blocks(spared_, shape)) {
+        const auto energy = [&](const TensorBlock& b) {
+            return block.name == kEnergyRest && b.name == "energy";
+        };
+        const auto found = std::find_if(blocks_.begin(), blocks_.end(), energy);
+        if (found != blocks_.end())
+            *found = std::move(block);
+        else
+            blocks_.push_back(std::move(block));
     }
-    replace("energy_squares", std::move(squares));
-    replace("group_energy", std::move(groups));
-    add_known();
-}
-
-void ResultFields::add_known() {
-    const std::vector<Layer>& layers = measurement_.layers;
-    const SumShape shape = measurement_.shape();
-    const std::uint64_t rows = extent(measurement_.detector.rows());
-    TensorBlock energy = {"energy_of_paths",
-                          TensorType::U64,
-                          {layers.size(), shape.orders, shape.channels, rows, shape.columns},
-                          {}};
-    TensorBlock known = {
-        "energy_known", TensorType::U64, {0, shape.channels, rows, shape.columns}, {}};
-    std::vector<std::uint64_t> unit, squares, of_group;
-    for (std::size_t k = 0; k < layers.size(); ++k) {
-        const SparedLayer& s = spared_[k];
-        energy.parts.push_back(
-            std::as_bytes(std::span(s.known_unit == 0 ? layers[k].energy : s.energy)));
-        unit.push_back(s.known_unit);
-        squares.push_back(static_cast<std::uint64_t>(s.known_squares));
-        squares.push_back(static_cast<std::uint64_t>(s.known_squares >> 64));
-        of_group.insert(of_group.end(), s.known_of_group.begin(), s.known_of_group.end());
-        if (s.known_unit == 0) continue;
-        known.parts.push_back(std::as_bytes(std::span(s.known)));
-        ++known.shape[0];
-    }
-    if (known.parts.empty()) return;
-    replace("energy", std::move(energy));
-    add_values<std::uint64_t>("known_unit", TensorType::U64, {unit.size()}, unit);
-    add_values<std::uint64_t>("known_squares", TensorType::U64, {unit.size(), 2}, squares);
-    add_values<std::uint64_t>("known_of_group", TensorType::U64, {unit.size(), GroupSums::kGroups},
-                              of_group);
-    blocks_.push_back(std::move(known));
 }
 
 void ResultFields::pack_large() {

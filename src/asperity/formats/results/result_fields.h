@@ -74,8 +74,6 @@ class ResultFields {
     void sum_up();
     /// Puts what SparedLayer holds in place of what it was made of.
     void leave_out();
-    void add_known();
-    void replace(std::string_view name, TensorBlock block);
     void pack_large();
     void add_checksums();
 

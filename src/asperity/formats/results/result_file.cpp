@@ -6,6 +6,7 @@
 #include <asperity/core/run.h>
 #include <asperity/formats/results/field_reader.h>
 #include <asperity/formats/results/result_fields.h>
+#include <asperity/formats/results/spared_fields.h>
 #include <asperity/gonio/experiment_text.h>
 #include <asperity/gonio/measurement_check.h>
 #include <fmt/format.h>
@@ -36,7 +37,8 @@ class ResultReader : FieldReader {
             else
                 why = contradiction(result_);
         });
-        if (!why.empty()) file_.fail(first_of({"energy", "energy_of_paths"}).offset, why);
+        if (!why.empty())
+            file_.fail(first_of({"energy", "energy_of_paths", "energy_rest"}).offset, why);
         return std::move(result_);
     }
 
@@ -48,6 +50,7 @@ class ResultReader : FieldReader {
         check_stored();
         read_settings();
         read_layers();
+        if (file_.find("cell_noise") != nullptr) read_noise();
         return {std::move(result_), text("checksum")};
     }
 
@@ -99,7 +102,8 @@ class ResultReader : FieldReader {
                     layer_block("stderr_energy", TensorType::F32, {}, &Layer::stderr_energy)));
             if (field.name == "format")
                 counted.push_back(format_digest());
-            else if (field.name == "energy" || field.name == "energy_of_paths")
+            else if (field.name == "energy" || field.name == "energy_of_paths" ||
+                     field.name == kEnergyRest)
                 counted.push_back(digest_of(layer_block(
                     "energy", TensorType::U64, {extent(result_.orders())}, &Layer::energy)));
             else
@@ -175,8 +179,10 @@ class ResultReader : FieldReader {
 
     void read_cells() {
         const Shape c = cells();
-        read_arrays(file_.find("energy_of_paths") ? "energy_of_paths" : "energy", TensorType::U64,
-                    {c[0], extent(result_.orders()), c[1], c[2], c[3]}, &Layer::energy);
+        if (file_.find(kEnergyRest) == nullptr)
+            read_arrays(file_.find("energy_of_paths") ? "energy_of_paths" : "energy",
+                        TensorType::U64, {c[0], extent(result_.orders()), c[1], c[2], c[3]},
+                        &Layer::energy);
         if (file_.find("stderr_energy") != nullptr || file_.find("energy_squares_rest") == nullptr)
             read_arrays("stderr_energy", TensorType::F32, c, &Layer::stderr_energy);
     }
@@ -206,29 +212,20 @@ class ResultReader : FieldReader {
                   &LayerSpread::bounces);
         read_wide("escaped_spread", {count, channels, 3}, &LayerSpread::albedo);
         if (spared || file_.find("batches_reached") != nullptr) read_groups(cells);
-        if (file_.find("energy_halves") != nullptr) read_halves(cells);
-        if (spared) read_spared(cells);
+        read_halves(cells);
+        if (spared) read_spared();
     }
 
     // What is left out, last of all: it follows from the rest.
-    void read_spared(const Shape& cells) {
-        spared_.resize(result_.layers.size());
-        read_each(
-            "energy_squares_rest", TensorType::U64, {cells[0], 2, cells[1], cells[2], cells[3]},
-            spared_, [](SparedLayer & s) -> auto& { return s.squares; });
-        const CoarseGrid grid(result_.shape());
-        if (!without_groups_)
-            read_each(
-                "group_energy_rest", TensorType::U64,
-                {cells[0], cells[1], GroupSums::kGroups, grid.down, grid.across}, spared_,
-                [](SparedLayer & s) -> auto& { return s.groups; });
-        if (file_.find("energy_of_paths") != nullptr) read_known(cells);
-        const bool errors_follow = file_.find("stderr_energy") == nullptr;
+    void read_spared() {
         const SumShape shape = result_.shape();
-        parallel_for(spared_.size(), Run().threads(), [&](std::size_t k) {
-            spared_[k].errors_follow = errors_follow;
-            restore(result_.layers[k], spared_[k], shape);
-            spared_[k] = {};
+        std::vector<SparedLayer> spared =
+            read_spared_layers(file_, result_.layers.size(), shape, !without_groups_);
+        const bool errors_follow = file_.find("stderr_energy") == nullptr;
+        parallel_for(spared.size(), Run().threads(), [&](std::size_t k) {
+            spared[k].errors_follow = errors_follow;
+            restore(result_.layers[k], spared[k], shape);
+            spared[k] = {};
             if (without_groups_) forget_groups(result_.layers[k].spread);
         });
     }
@@ -239,33 +236,30 @@ class ResultReader : FieldReader {
         spread.groups = {};
     }
 
-    void read_known(const Shape& cells) {
-        const std::size_t count = spared_.size(), groups = GroupSums::kGroups;
-        const auto unit = values<std::uint64_t>("known_unit", TensorType::U64, {count});
-        const auto squares = values<std::uint64_t>("known_squares", TensorType::U64, {count, 2});
-        const auto of_group =
-            values<std::uint64_t>("known_of_group", TensorType::U64, {count, groups});
-        std::vector<SparedLayer*> known;
-        for (std::size_t k = 0; k < count; ++k) {
-            SparedLayer& s = spared_[k];
-            s.known_unit = unit[k];
-            s.known_squares = (LayerSums::Wide{squares[2 * k + 1]} << 64) | squares[2 * k];
-            const auto first = of_group.begin() + static_cast<std::ptrdiff_t>(k * groups);
-            s.known_of_group.assign(first, first + static_cast<std::ptrdiff_t>(groups));
-            if (unit[k] != 0) known.push_back(&s);
-        }
-        read_each(
-            "energy_known", TensorType::U64, {known.size(), cells[1], cells[2], cells[3]}, known,
-            [](SparedLayer * s) -> auto& { return s->known; });
+    void read_halves(const Shape& cells) {
+        const bool whole = file_.find("energy_halves") != nullptr;
+        if (!whole && file_.find("energy_halves_rest") == nullptr) return;
+        if (whole)
+            read_parts(
+                "energy_halves", TensorType::U64, {cells[0], cells[1], cells[2], cells[3], 2},
+                [](Layer & layer) -> auto& { return layer.spread.halves.cells; });
+        read_halves_of_albedo();
     }
 
-    void read_halves(const Shape& cells) {
+    void read_halves_of_albedo() {
         read_parts(
-            "energy_halves", TensorType::U64, {cells[0], cells[1], cells[2], cells[3], 2},
-            [](Layer & layer) -> auto& { return layer.spread.halves.cells; });
-        read_parts(
-            "escaped_halves", TensorType::U64, {cells[0], cells[1], 2},
+            "escaped_halves", TensorType::U64,
+            {result_.layers.size(), extent(result_.channels()), 2},
             [](Layer & layer) -> auto& { return layer.spread.halves.albedo; });
+    }
+
+    // What of the errors is the rays', without the cells.
+    void read_noise() {
+        read_halves_of_albedo();
+        const auto noise =
+            values<double>("cell_noise", TensorType::F64, {result_.layers.size(), 2});
+        for (std::size_t k = 0; k < result_.layers.size(); ++k)
+            result_.layers[k].spread.cell_noise = CellNoise{noise[2 * k], noise[2 * k + 1]};
     }
 
     void read_groups(const Shape& cells) {
@@ -341,7 +335,6 @@ class ResultReader : FieldReader {
     Measurement result_;
     bool without_groups_ = false;
     std::vector<Digest> digests_;  ///< of the fields that the table of checksums covers
-    std::vector<SparedLayer> spared_;
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace asperity::io {
 
 /// Version of the result format (docs/formats.md). Readers refuse a higher one.
-inline constexpr int kResultFormat = 3;
+inline constexpr int kResultFormat = 4;
 
 /// Writes a result file (tensor container, docs/formats.md): to a temporary name beside `path`,
 /// synced, renamed over it; on any failure `path` is as it was and no temporary file is left.
@@ -26,9 +26,9 @@ struct ResultHead {
 };
 /// Reads no more than that where it can. Every byte of the file is compared with its checksum all
 /// the same, so a damaged file is refused as by load_measurement(); whether what is packed in it
-/// makes the whole result is not looked at. Results of several surfaces, whose cells tell the
-/// shares of their noise, are read whole, and so are those of formats before 3, whose table of
-/// checksums does not cover the file.
+/// makes the whole result is not looked at. Of several surfaces LayerSpread::cell_noise tells the
+/// shares of their noise. Read whole are files of several surfaces of format 3, which did not have
+/// that, and those of formats before, whose table of checksums does not cover the file.
 ResultHead load_head(const std::string& path);
 
 /// All that a table of the lobes is made of, errors of cells included: reads what

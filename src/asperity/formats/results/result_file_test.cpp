@@ -75,6 +75,11 @@ void add_spread(const Measurement& m, Layer& layer, bool stretched, std::mt19937
     for (std::size_t k = 0; k < layer.escaped_by_bounce.size(); ++k)
         spread.bounces.push_back({engine(), wide()});
     for (int c = 0; c < m.channels(); ++c) spread.albedo.push_back({engine(), wide()});
+    if (stretched) {
+        for (std::size_t k = 0; k < layer.stderr_energy.size(); ++k)
+            spread.halves.cells.push_back(wide());
+        for (int c = 0; c < m.channels(); ++c) spread.halves.albedo.push_back(wide());
+    }
     spread.albedo_by_age.resize(LayerSums::kAges * spread.albedo.size());
     for (LayerSums::Spread& s : spread.albedo_by_age) s = {engine(), wide()};
     spread.groups = GroupSums(m.shape());
@@ -164,7 +169,7 @@ TEST(ResultFile, KeepsWhatTheErrorsComeFrom) {
             EXPECT_TRUE(a.done == b.done && a.squares == b.squares && a.stretched == b.stretched &&
                         a.bounces == b.bounces && a.albedo == b.albedo && a.exact == b.exact &&
                         a.reached == b.reached && a.albedo_by_age == b.albedo_by_age &&
-                        a.groups == b.groups);
+                        a.groups == b.groups && a.halves == b.halves);
         }
         EXPECT_EQ(std::tie(read.part, read.parts, read.surface_digest, read.surface_cells),
                   std::tie(m.part, m.parts, m.surface_digest, m.surface_cells));
@@ -436,7 +441,7 @@ TEST(ResultFile, RefusesWellFormedNonsense) {
     refused("stuck", std::string(16, '\xff'), TensorType::U64, {2}, "rays stuck");
     refused("stderr_albedo", std::string(48, '\xff'), TensorType::F64, {2, 3}, "is negative or no");
     refused("theta_edges", std::string(24, '\xff'), TensorType::F64, {3}, "does not fit the");
-    refused("format", std::string("\4\0\0\0", 4), TensorType::U32, {1}, "format 4 is not known");
+    refused("format", std::string("\5\0\0\0", 4), TensorType::U32, {1}, "format 5 is not known");
     refused("sides", std::string("\2\0\0\0", 4), TensorType::U32, {1}, "more sides than one");
     refused("elements", std::string("\0\0\0\0", 4), TensorType::U32, {1}, "more elements");
     refused("format", std::string("\0\0\0\0", 4), TensorType::U32, {1}, "format 0 is not known");
