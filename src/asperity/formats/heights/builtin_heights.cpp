@@ -11,15 +11,15 @@
 namespace asperity::io {
 namespace {
 
-template <Heightfield (*Read)(const std::string&)>
-Topography read_floats(const std::string& path) {
-    return as_topography(Read(path));
+template <Heightfield (*Read)(const HeightsSource&)>
+Topography read_floats(const HeightsSource& source) {
+    return as_topography(Read(source));
 }
 
 // A format whose reader gives the one surface of the file.
-template <Topography (*Read)(const std::string&)>
+template <Topography (*Read)(const HeightsSource&)>
 std::vector<HeightsChannel> open(const HeightsSource& source) {
-    Topography t = Read(source.path());
+    Topography t = Read(source);
     if (t.ours)
         t.note("as Asperity wrote it");
     else if (t.unit == "cell" && t.dx == 1 && t.dy == 1)

@@ -45,8 +45,8 @@ std::vector<std::string> usable_channels(const Imf::Header& header, const std::s
     return all;
 }
 
-Heightfield read_image(const InputFile& file) {
-    const std::string& path = file.path();
+Heightfield read_image(const HeightsSource& source) {
+    const std::string& path = source.path();
     Imf::InputFile image(path.c_str());
     if (!image.isComplete()) refuse(path, "the image is incomplete");
     const std::vector<std::string> channels = usable_channels(image.header(), path);
@@ -66,7 +66,7 @@ Heightfield read_image(const InputFile& file) {
                      Imf::Slice::Make(Imf::FLOAT, values, box, sizeof(float), row_bytes));
     }
     image.setFrameBuffer(frame);
-    image.readPixels(box.min.y, box.max.y);
+    source.for_each_row(surface.ny, [&](int j) { image.readPixels(box.min.y + j); });
     for (const std::vector<float>& other : others)
         for (std::size_t k = 0; k < other.size(); ++k) {
             const float a = surface.heights[k], b = other[k];
@@ -79,11 +79,12 @@ Heightfield read_image(const InputFile& file) {
 
 }  // namespace
 
-Heightfield read_exr_heights(const std::string& path) {
+Heightfield read_exr_heights(const HeightsSource& source) {
+    const std::string& path = source.path();
     const InputFile file(path);
     check_exr_outline(file, ExrContent::Heights, check_sides);
     Heightfield surface;
-    translating_exr(path, ErrorCode::InvalidInput, [&] { surface = read_image(file); });
+    translating_exr(path, ErrorCode::InvalidInput, [&] { surface = read_image(source); });
     return surface;
 }
 

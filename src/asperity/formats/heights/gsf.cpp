@@ -173,7 +173,8 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-Topography read_gsf(const std::string& path) {
+Topography read_gsf(const HeightsSource& source) {
+    const std::string& path = source.path();
     const InputFile file(path);
     const Header lines = read_header(file);
     const HeaderReader header(lines, path);
@@ -186,7 +187,12 @@ Topography read_gsf(const std::string& path) {
         refuse(path, fmt::format("{} x {} samples need {} bytes, the file has {}", nx, ny, expected,
                                  file.size()));
     Heightfield surface = empty_patch(nx, ny, path);
-    file.read(lines.bytes, std::as_writable_bytes(std::span(surface.heights)));
+    const auto samples = std::as_writable_bytes(std::span(surface.heights));
+    const std::size_t row_bytes = samples.size() / static_cast<std::size_t>(surface.ny);
+    source.for_each_row(surface.ny, [&](int j) {
+        const std::size_t at = static_cast<std::size_t>(j) * row_bytes;
+        file.read(lines.bytes + at, samples.subspan(at, row_bytes));
+    });
 
     surface.dx = spacing(header, "X", surface.nx);
     surface.dy = spacing(header, "Y", surface.ny);

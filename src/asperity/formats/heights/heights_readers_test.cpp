@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Readers of topographies on files made here.
+#include <asperity/formats/heights/height_files.h>
 #include <asperity/formats/heights/heights_format.h>
 #include <asperity/formats/heights/heights_test_files.h>
 #include <asperity/formats/heights/surface_files.h>
@@ -7,6 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace asperity::io {
 namespace {
@@ -337,13 +341,41 @@ TEST(HeightsTexts, HeaderLinesThatAreNotUsedAreNamed) {
     EXPECT_NE(t.assumed.find("1 more header lines are not used"), std::string::npos) << t.assumed;
 }
 
-TEST(HeightsReaders, HearAStop) {
+/// A small file of each format that is read: instruments' and those we write.
+std::vector<std::pair<std::string, std::string>> a_file_of_each_format() {
+    std::vector<std::pair<std::string, std::string>> files;
+    for (const test::HeightsTestFile& file : test::heights_test_files())
+        files.emplace_back(file.format, file.bytes);
+    const Heightfield surface = empty_patch(3, 2, "made here");
     const TemporaryFolder folder;
-    put(folder / "a.npy", npy());
-    asperity::Run run(1);
-    run.request_stop();
-    expect_error(ErrorCode::Stopped, "stopped while reading",
-                 [&] { read_topography(folder / "a.npy", {}, run); });
+    const HeightsFormats formats;
+    for (const HeightsFormat& format : formats.rows()) {
+        if (!format.write) continue;
+        format.write(surface, folder / "a");
+        files.emplace_back(format.name, test::get(folder / "a"));
+    }
+    return files;
+}
+
+TEST(HeightsReaders, EachTellsItsProgressAndHearsAStop) {
+    const TemporaryFolder folder;
+    const std::string path = folder / "a.anything";
+    for (const auto& [format, bytes] : a_file_of_each_format()) {
+        SCOPED_TRACE(format);
+        put(path, bytes);
+        const HeightsOptions options{format, "", ""};
+        asperity::Run run(1);
+        read_topography(path, options, run);
+        const Progress told = run.progress();
+        EXPECT_EQ(told.stage, "reading heights");
+        EXPECT_GE(told.total, 2u);
+        EXPECT_EQ(told.done, told.total);
+
+        asperity::Run stopped(1);
+        stopped.request_stop();
+        expect_error(ErrorCode::Stopped, "stopped while reading",
+                     [&] { read_topography(path, options, stopped); });
+    }
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace asperity::io {
 namespace {
 
 constexpr std::uint64_t kMaxBytes = std::uint64_t{16} << 30;
+constexpr std::size_t kPiece = 8 << 20;  // bytes read between two looks at a stop
 
 }  // namespace
 
@@ -29,8 +30,20 @@ HeightsSource::HeightsSource(const std::string& path, HeightsOptions options, Ru
 }
 
 std::span<const std::byte> HeightsSource::bytes() const {
-    if (bytes_->empty()) *bytes_ = read_file(path_, kMaxBytes);
-    return *bytes_;
+    if (!bytes_->empty()) return *bytes_;
+    const InputFile file(path_);
+    if (file.size() > kMaxBytes)
+        refuse(fmt::format("{} bytes are more than the {} allowed", file.size(), kMaxBytes));
+    std::vector<std::byte> bytes(static_cast<std::size_t>(file.size()));
+    run_->begin("reading the file", file.size());
+    for (std::size_t at = 0; at < bytes.size(); at += kPiece) {
+        throw_if_stopped();
+        const std::size_t count = std::min(kPiece, bytes.size() - at);
+        file.read(at, std::span(bytes).subspan(at, count));
+        run_->advance(count);
+    }
+    run_->end();
+    return *bytes_ = std::move(bytes);
 }
 
 std::string_view HeightsSource::text() const {
@@ -41,11 +54,15 @@ std::string_view HeightsSource::text() const {
 void HeightsSource::for_each_row(int ny, const std::function<void(int)>& row) const {
     run_->begin("reading heights", static_cast<std::uint64_t>(ny));
     for (int j = 0; j < ny; ++j) {
-        if (!run_->keep_going()) throw Error(ErrorCode::Stopped, "stopped while reading", path_);
+        throw_if_stopped();
         row(j);
         run_->advance(1);
     }
     run_->end();
+}
+
+void HeightsSource::throw_if_stopped() const {
+    if (!run_->keep_going()) throw Error(ErrorCode::Stopped, "stopped while reading", path_);
 }
 
 void HeightsSource::refuse(const std::string& why) const {

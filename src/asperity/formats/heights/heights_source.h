@@ -36,13 +36,17 @@ class HeightsSource {
     Run& run() const { return *run_; }
     /// Up to kSniffedHeights bytes of the beginning.
     std::string_view head() const { return head_; }
-    /// The whole file, read at the first call.
+    /// The whole file, read at the first call, which tells its progress and throws Error(Stopped).
     std::span<const std::byte> bytes() const;
     std::string_view text() const;
 
     /// Calls row(j) for 0 <= j < ny, telling the progress. Throws Error(Stopped) when asked to
     /// stop.
     void for_each_row(int ny, const std::function<void(int)>& row) const;
+
+    /// For loops that are no loops over rows. Waits while the run is paused; throws
+    /// Error(Stopped, path).
+    void throw_if_stopped() const;
 
     [[noreturn]] void refuse(const std::string& why) const;
     [[noreturn]] void refuse_line(std::size_t line, const std::string& why) const;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <asperity/core/error.h>
 #include <asperity/formats/heights/height_files.h>
-#include <asperity/formats/read_file.h>
 #include <fmt/format.h>
 #include <png.h>
 
@@ -17,7 +16,6 @@ namespace {
 
 // Deflate cannot pack more than 1032 bytes into one.
 constexpr std::uint64_t kMaxDeflate = 1032;
-constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30;
 
 // All that libpng's jumps must leave intact lives here, outside the functions they cross.
 struct PngInput {
@@ -40,7 +38,7 @@ void on_read(png_structp png, png_bytep bytes, std::size_t count) {
     input->rest = input->rest.subspan(count);
 }
 
-// libpng's reader, and the two steps that may jump. They hold no object with a destructor.
+// libpng's reader, and the steps that may jump. They hold no object with a destructor.
 class PngReader {
   public:
     explicit PngReader(PngInput& input)
@@ -63,11 +61,21 @@ class PngReader {
         return true;
     }
 
-    bool read_rows(png_bytepp rows) {
+    /// How often all rows are to be read: an interlaced picture comes in several passes.
+    bool begin_rows(int& passes) {
         if (setjmp(png_jmpbuf(png_)) != 0) return false;
         if (depth() == 16) png_set_swap(png_);
-        png_set_interlace_handling(png_);
-        png_read_image(png_, rows);
+        passes = png_set_interlace_handling(png_);
+        png_read_update_info(png_, info_);
+        return true;
+    }
+    bool read_row(png_bytep row) {
+        if (setjmp(png_jmpbuf(png_)) != 0) return false;
+        png_read_row(png_, row, nullptr);
+        return true;
+    }
+    bool end_rows() {
+        if (setjmp(png_jmpbuf(png_)) != 0) return false;
         png_read_end(png_, nullptr);
         return true;
     }
@@ -145,8 +153,9 @@ class Samples {
 
 }  // namespace
 
-Heightfield read_png_heights(const std::string& path) {
-    const std::vector<std::byte> file = read_file(path, kMaxFileBytes);
+Heightfield read_png_heights(const HeightsSource& source) {
+    const std::string& path = source.path();
+    const std::span<const std::byte> file = source.bytes();
     PngInput input{file, {}};
     PngReader png(input);
     const auto fail = [&] {
@@ -161,10 +170,13 @@ Heightfield read_png_heights(const std::string& path) {
                                   static_cast<std::size_t>(png.channels()) *
                                   static_cast<std::size_t>(png.depth() / 8);
     std::vector<png_byte> pixels(row_bytes * static_cast<std::size_t>(surface.ny));
-    std::vector<png_bytep> rows;
-    for (std::size_t j = 0; j < static_cast<std::size_t>(surface.ny); ++j)
-        rows.push_back(pixels.data() + j * row_bytes);
-    if (!png.read_rows(rows.data())) fail();
+    int passes = 1;
+    if (!png.begin_rows(passes)) fail();
+    source.for_each_row(passes * surface.ny, [&](int j) {
+        if (!png.read_row(pixels.data() + static_cast<std::size_t>(j % surface.ny) * row_bytes))
+            fail();
+    });
+    if (!png.end_rows()) fail();
     const Samples samples(png, pixels, path);
     for (std::size_t k = 0; k < surface.heights.size(); ++k)
         surface.heights[k] = static_cast<float>(samples.at(k) / samples.full());

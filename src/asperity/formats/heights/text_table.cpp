@@ -61,8 +61,7 @@ class TableReader {
             ++line_;
             read_line(next_line(rest));
             source_.run().advance(before - rest.size());
-            if (line_ % 64 == 0 && !source_.run().keep_going())
-                throw Error(ErrorCode::Stopped, "stopped while reading", source_.path());
+            if (line_ % 64 == 0) source_.throw_if_stopped();
         }
         source_.run().end();
         if (table_.numbers.empty()) source_.refuse("no numbers");
