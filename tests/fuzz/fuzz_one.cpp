@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// One reader under libFuzzer; tools/fuzz runs it on all.
+// One reader under libFuzzer, or all in turn; tools/fuzz runs it on each, the tests replay its
+// seeds.
 //
 //   asperity_fuzz --list              the names of the readers, one a line
-//   asperity_fuzz --seeds FOLDER      writes FOLDER/NAME/ with seeds and FOLDER/NAME.dict
+//   asperity_fuzz --seeds FOLDER      writes FOLDER/NAME/ with seeds and FOLDER/NAME.dict, and
+//                                     FOLDER/all/ with the seeds of all and FOLDER/all.dict
 //   ASPERITY_FUZZ=NAME asperity_fuzz  fuzzes that reader, with libFuzzer's options
+//   ASPERITY_FUZZ=all asperity_fuzz   fuzzes the reader that the first byte of a file counts
 #include "readers.h"
 
 #include <asperity/formats/test_files.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -21,30 +25,54 @@ namespace {
 using asperity::test::Reader;
 using asperity::test::readers;
 
-const Reader& chosen() {
+/// The name the environment gives, "all" or one of the readers'.
+std::string_view chosen() {
     const char* const name = std::getenv("ASPERITY_FUZZ");
-    for (const Reader& reader : readers()) {
-        if (name != nullptr && reader.name == name) return reader;
-    }
+    const std::string_view given = name == nullptr ? "" : name;
+    const auto is_given = [&](const Reader& reader) { return reader.name == given; };
+    if (given == "all" || std::ranges::any_of(readers(), is_given)) return given;
     std::fputs("asperity_fuzz: ASPERITY_FUZZ names no reader, see --list\n", stderr);
     std::exit(2);
 }
 
-void write_seeds(const std::filesystem::path& folder) {
-    for (const Reader& reader : readers()) {
-        std::filesystem::create_directories(folder / reader.name);
-        for (std::size_t k = 0; k < reader.seeds.size(); ++k)
-            asperity::io::test::put(folder / reader.name / fmt::format("seed{}", k),
-                                    reader.seeds[k]);
-        std::string words;
-        for (const std::string& word : reader.words) {
-            words += '"';
-            for (const char c : word)
-                words += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-            words += "\"\n";
-        }
-        asperity::io::test::put(folder / (reader.name + ".dict"), words);
+/// The words as libFuzzer's dictionaries spell them.
+std::string dictionary_of(const Reader& reader) {
+    std::string text;
+    for (const std::string& word : reader.words) {
+        text += '"';
+        for (const char c : word) text += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+        text += "\"\n";
     }
+    return text;
+}
+
+void write_seeds(const std::filesystem::path& folder) {
+    using asperity::io::test::put;
+    std::string all_words;
+    std::filesystem::create_directories(folder / "all");
+    for (std::size_t r = 0; r < readers().size(); ++r) {
+        const Reader& reader = readers()[r];
+        std::filesystem::create_directories(folder / reader.name);
+        for (std::size_t k = 0; k < reader.seeds.size(); ++k) {
+            put(folder / reader.name / fmt::format("seed{}", k), reader.seeds[k]);
+            put(folder / "all" / fmt::format("{}-seed{}", reader.name, k),
+                static_cast<char>(r) + reader.seeds[k]);
+        }
+        put(folder / (reader.name + ".dict"), dictionary_of(reader));
+        all_words += dictionary_of(reader);
+    }
+    put(folder / "all.dict", all_words);
+}
+
+/// Has the reader read a file of these bytes; ends the program when it does what none may.
+void try_one(const Reader& reader, std::string_view bytes) {
+    static const asperity::io::test::TemporaryFolder kFolder;
+    const std::string path = kFolder / reader.file_name;
+    asperity::io::test::put(path, std::string(bytes));
+    const std::string fault = fault_of(reader, path);
+    if (fault.empty()) return;
+    std::fprintf(stderr, "%s: %s\n", reader.name.c_str(), fault.c_str());
+    std::abort();
 }
 
 }  // namespace
@@ -64,14 +92,14 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const Reader& kReader = chosen();
-    static const asperity::io::test::TemporaryFolder kFolder;
-    const std::string path = kFolder / kReader.file_name;
-    asperity::io::test::put(path, {reinterpret_cast<const char*>(data), size});
-    const std::string fault = fault_of(kReader, path);
-    if (!fault.empty()) {
-        std::fprintf(stderr, "%s: %s\n", kReader.name.c_str(), fault.c_str());
-        std::abort();
+    static const std::string_view kChosen = chosen();
+    const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+    if (kChosen != "all") {
+        for (const Reader& reader : readers())
+            if (reader.name == kChosen) try_one(reader, bytes);
+    } else if (!bytes.empty()) {
+        const std::size_t which = static_cast<unsigned char>(bytes.front()) % readers().size();
+        try_one(readers()[which], bytes.substr(1));
     }
     return 0;
 }
