@@ -136,6 +136,15 @@ function(asperity_vectors name)
     endif()
 endfunction()
 
+# asperity_matrices(FILES ...): these files of the folder are little but templates of matrices, small ones.
+# Instrumented, clang takes most of a minute to optimise each: with sanitizers they are left as they stand.
+function(asperity_matrices)
+    if(ASPERITY_SANITIZE)
+        set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -O0
+            SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+endfunction()
+
 # asperity_test_options(TARGET GROUP COST): how a test is compiled, and its variable `test_cost`. What is
 # computed is the library's: what counts for most is that they compile quickly. A test of some COST, the
 # seconds that it runs for where nothing is sanitized, is worth optimising there, too: of an inline

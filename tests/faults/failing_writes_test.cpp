@@ -127,17 +127,26 @@ std::vector<Writer> writers() {
     list.push_back({"model.obj", [=](const std::string& path) { write_obj(mesh, path); }});
     list.push_back({"model.ply", [=](const std::string& path) { write_ply(mesh, path); }});
     const auto source = std::make_shared<const ExportSource>(measurement, 1);
-    // MaterialX holds the parameters of a model, and no table
-    const auto model = std::make_shared<const ExportSource>(
-        std::shared_ptr<const Bsdf>(parse_brdf_spec("ggx:alpha=0.3")),
-        asperity::test::small_experiment(), 1);
-    // The coarsest there is: what counts is how often a file is written to
+    const auto model_source = [](const char* spec) {
+        return std::make_shared<const ExportSource>(
+            std::shared_ptr<const Bsdf>(parse_brdf_spec(spec)), asperity::test::small_experiment(),
+            1);
+    };
+    // What counts is how often a file is written to: the largest ones hold what is quickly
+    // computed, and the others are of the coarsest kind
+    const auto quick = model_source("lambert:albedo=0.5");
+    const std::map<std::string, std::shared_ptr<const ExportSource>> sources = {
+        {"materialx", model_source("ggx:alpha=0.3")},  // has parameters of a model, and no table
+        {"merl", quick},
+        {"rgl", quick},
+        {"klems", quick}};
     const std::map<std::string, std::string> options = {{"klems", "basis=quarter"},
                                                         {"tensortree", "levels=3"}};
     const BsdfFormats formats;
     for (const BsdfFormat& format : formats.rows()) {
         if (!format.write) continue;
-        const auto& from = format.name == "materialx" ? model : source;
+        const auto own = sources.find(format.name);
+        const auto& from = own == sources.end() ? source : own->second;
         const auto chosen = options.find(format.name);
         const std::string text = chosen == options.end() ? "" : chosen->second;
         list.push_back({format.name + "." + format.endings.at(0), [=](const std::string& path) {
