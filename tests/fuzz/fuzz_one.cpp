@@ -87,6 +87,7 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
         write_seeds((*argv)[2]);
         std::exit(0);
     }
+    readers();  // makes the seeds of all: no time of the first file's
     chosen();
     return 0;
 }
