@@ -12,6 +12,7 @@
 #include <asperity/bsdf/models/microfacet.h>
 #include <asperity/bsdf/models/plus_lambert.h>
 #include <asperity/bsdf/smith.h>
+#include <asperity/bsdf/smith_lanes.h>
 #include <asperity/bsdf/spec.h>
 #include <asperity/core/directions.h>
 #include <asperity/core/energy.h>
